@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace plumb {
+
+/// The one error type for anything a caller can get wrong. `what()` names the file, line, index or
+/// value that is at fault and says what to do about it.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Thrown when a progress callback returned false. Nothing was built or written.
+class Cancelled : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace plumb

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+/// What a camera sees: a depth and a triangle id for each pixel, row-major from the top. A pixel
+/// that sees nothing holds +inf and kNone.
+struct Frame {
+  /// A clear frame. Throws plumb::Error when a size is below 1.
+  Frame(int width, int height);
+
+  /// Every pixel to {+inf, kNone}.
+  void clear();
+
+  int width;
+  int height;
+  std::vector<float> depth;
+  std::vector<std::uint32_t> id;
+};
+
+/// A pixel in which two frames differ, and what each saw there.
+struct PixelDifference {
+  int x, y;
+  float depth_a, depth_b;
+  std::uint32_t id_a, id_b;
+};
+
+/// Where and how much two frames differ. Depths are compared as bits.
+struct Comparison {
+  std::size_t pixels = 0;              ///< compared
+  std::size_t different_ids = 0;       ///< pixels whose ids differ
+  std::size_t different_depths = 0;    ///< pixels whose depths differ
+  std::size_t different_pixels = 0;    ///< pixels in which either differs
+  std::vector<PixelDifference> first;  ///< the first of them in row order, at most kMaxListed
+
+  static constexpr std::size_t kMaxListed = 16;
+  bool equal() const { return different_pixels == 0; }
+};
+
+/// Compares two frames of one size bit by bit. Throws plumb::Error when the sizes differ.
+Comparison compare(const Frame& a, const Frame& b);
+
+}  // namespace plumb
