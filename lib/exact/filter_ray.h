@@ -1,0 +1,28 @@
+#pragma once
+
+#include "plumb/ray.h"
+
+namespace plumb::detail {
+
+/// A ray as the float stage takes it (exact/filter-inl.h).
+struct FilterRay {
+  float origin[3];
+  float direction[3];
+  float edge_scale;   ///< 9.3 u D: the edge functions' error is at most this times L (2 R + L)
+  float den_scale;    ///< 7.2 u D, times L^2
+  float depth_scale;  ///< 8.2 u, times R L^2
+  /// A hit counts only if its exact t is below this, up to the slack that the float comparison needs.
+  float limit;
+
+  /// `greatest` is the greatest |coordinate| of the scene's finite triangles. The limit is infinite.
+  FilterRay(const Ray& ray, float greatest);
+
+  /// Lowers the limit to what can still win against a hit at `t`, or count below tmax = `t`.
+  void set_limit(float t);
+};
+
+/// The least float that no exact value exceeds which rounds to `t` or below: the next float up, which
+/// is above the midpoint. Infinity stays. `t` is not negative.
+float depth_limit(float t);
+
+}  // namespace plumb::detail

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+#include "build/binary_tree.h"
+#include "plumb/ray.h"
+#include "wide/wide_tree.h"
+
+// Boxes are culled conservatively: one that holds a point of the ray with an exact t that counts is
+// never skipped. The displacement of the definition does not matter here: a hit's exact point lies
+// on the closed triangle, by continuity, and so in the closed box of its vertices.
+
+namespace plumb::detail {
+
+/// A ray against boxes in plain double arithmetic, for any valid ray: the reference, and the path for
+/// rays that the float test cannot take.
+class ExactBoxRay {
+ public:
+  explicit ExactBoxRay(const Ray& ray);
+
+  /// Whether the box may hold a point with t from tmin to `limit`; then `near` is a lower bound of
+  /// its t, at least max(tmin, 0).
+  bool meets(const float lo[3], const float hi[3], float limit, float& near) const;
+
+ private:
+  double origin_[3];
+  double inv_near_[3];  // 1 / d, shrunk by its own and the slab's rounding
+  double inv_far_[3];   // and grown
+  bool parallel_[3];
+  double tmin_;
+};
+
+/// A ray against the SoA boxes of wide nodes in float.
+///
+/// For a plane p of an axis, with s = (p - o) / d the exact parameter, the computed product
+/// fl(fl(p - o) * inverse) has two roundings and the inverse one of its own: a relative error below
+/// 3.01 u, u = 2^-24. The inverses carry a factor 1 - 4 u for near planes and 1 + 4 u for far ones, so
+/// that where s > 0 the near value is below it and the far value above. Where s < 0, a near value is
+/// at most 0 (and the comparison starts at max(tmin, 0)), and a far value is negative, as it should be: no
+/// point of the box lies ahead. A product that underflows is off by up to 2^-150, which the
+/// comparison allows for (kUnderflow).
+struct BoxRay {
+  float origin[3];
+  float inv_near[3];
+  float inv_far[3];
+  int near_row[3];  ///< rows of WideNode::bounds
+  int far_row[3];
+  float tmin;     ///< max(tmin, 0)
+  bool in_range;  ///< the analysis above holds: no zero in the direction, nothing overflows
+
+  /// Subtracted from near before it is compared with far. Absorbed when near is above 2^-96; below, it
+  /// makes up for products that underflowed.
+  static constexpr float kUnderflow = 0x1p-120f;
+
+  BoxRay(const Ray& ray, float greatest);
+};
+
+/// The children of a node that the ray may meet, one bit each, by ExactBoxRay, with their near values.
+template <int W>
+std::uint32_t meet_children(const WideNode<W>& node, const ExactBoxRay& ray, float limit, float* near);
+
+}  // namespace plumb::detail

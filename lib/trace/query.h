@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "exact/filter_ray.h"
+#include "exact/intersect.h"
+#include "plumb/ray.h"
+
+// What a traversal is asked for. Each query holds the limit beyond which nothing matters any more and
+// takes hits one at a time; the traversals are the same for all.
+
+namespace plumb::detail {
+
+/// Whether a ray can see anything: valid, and some t lies between its limits.
+inline bool ray_can_hit(const Ray& ray) {
+  return ray_is_valid(ray) && (ray.tmin > 0.0f ? ray.tmin : 0.0f) < ray.tmax;
+}
+
+/// The smallest (t, id).
+class ClosestQuery {
+ public:
+  explicit ClosestQuery(const Ray& ray) : ray_(ray), limit_(depth_limit(ray.tmax)) {}
+
+  /// No exact t above this matters.
+  float limit() const { return limit_; }
+  /// Takes a line's hit; true when the traversal is done.
+  bool take(float t, std::uint32_t id) {
+    if (depth_counts(ray_, t) && hit_before(t, id, best_)) {
+      best_ = {t, id};
+      limit_ = depth_limit(t);
+    }
+    return false;
+  }
+  Hit result() const { return best_; }
+
+ private:
+  const Ray& ray_;
+  Hit best_;
+  float limit_;
+};
+
+/// Whether any hit counts.
+class AnyQuery {
+ public:
+  explicit AnyQuery(const Ray& ray) : ray_(ray), limit_(depth_limit(ray.tmax)) {}
+  float limit() const { return limit_; }
+  bool take(float t, std::uint32_t) {
+    hit_ = depth_counts(ray_, t);
+    return hit_;
+  }
+  bool result() const { return hit_; }
+
+ private:
+  const Ray& ray_;
+  float limit_;
+  bool hit_ = false;
+};
+
+/// Every hit that counts, unsorted.
+class AllQuery {
+ public:
+  AllQuery(const Ray& ray, std::vector<Hit>& hits) : ray_(ray), limit_(depth_limit(ray.tmax)), hits_(hits) {}
+  float limit() const { return limit_; }
+  bool take(float t, std::uint32_t id) {
+    if (depth_counts(ray_, t)) hits_.push_back({t, id});
+    return false;
+  }
+
+ private:
+  const Ray& ray_;
+  float limit_;
+  std::vector<Hit>& hits_;
+};
+
+inline void sort_hits(std::vector<Hit>& hits) {
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return hit_before(a.t, a.id, b); });
+}
+
+/// The queries over one structure. `structure` is what the functions were made for. Callers hold the
+/// default floating-point mode.
+struct QueryTable {
+  void (*closest)(const void* structure, const Ray* rays, Hit* hits, std::size_t count);
+  void (*any)(const void* structure, const Ray* rays, bool* hits, std::size_t count);
+  void (*all)(const void* structure, const Ray& ray, std::vector<Hit>& hits);
+};
+
+/// A table from a structure's traversal: `traverse(structure, ray, query)` offers every line hit that
+/// may matter to query.take() until it returns true.
+template <typename Structure, typename Traversal>
+QueryTable make_query_table() {
+  QueryTable table;
+  table.closest = [](const void* structure, const Ray* rays, Hit* hits, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      ClosestQuery query(rays[i]);
+      if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
+      hits[i] = query.result();
+    }
+  };
+  table.any = [](const void* structure, const Ray* rays, bool* hits, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      AnyQuery query(rays[i]);
+      if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
+      hits[i] = query.result();
+    }
+  };
+  table.all = [](const void* structure, const Ray& ray, std::vector<Hit>& hits) {
+    hits.clear();
+    AllQuery query(ray, hits);
+    if (ray_can_hit(ray)) Traversal::run(*static_cast<const Structure*>(structure), ray, query);
+    sort_hits(hits);
+  };
+  return table;
+}
+
+}  // namespace plumb::detail
