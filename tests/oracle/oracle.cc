@@ -75,6 +75,10 @@ bool can_be_seen(const Triangle& triangle) {
   return is_finite(triangle.v0) && is_finite(triangle.v1) && is_finite(triangle.v2);
 }
 
+bool line_meets(const Vec3& origin, const Vec3& direction, const Triangle& triangle) {
+  return Meeting(origin, direction, triangle).covered();
+}
+
 std::optional<float> line_hit(const Vec3& origin, const Vec3& direction, const Triangle& triangle) {
   const Meeting meeting(origin, direction, triangle);
   if (!meeting.covered()) return std::nullopt;

@@ -46,8 +46,12 @@ bool can_see(const Ray& ray);
 /// All nine coordinates are finite.
 bool can_be_seen(const Triangle& triangle);
 
+/// Whether the displaced line meets the triangle. As below, the origin and direction must be finite, and
+/// the triangle.
+bool line_meets(const Vec3& origin, const Vec3& direction, const Triangle& triangle);
+
 /// RN32(t) where the displaced line meets the triangle, the denominator is not zero and RN32(t) is
-/// finite; of either sign. The origin and direction must be finite, and the triangle.
+/// finite; of either sign.
 std::optional<float> line_hit(const Vec3& origin, const Vec3& direction, const Triangle& triangle);
 
 /// RN32(t) of the line's meeting with the triangle's plane, covered or not and maybe infinite; nothing
