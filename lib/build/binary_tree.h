@@ -7,6 +7,10 @@
 
 namespace plumb::detail {
 
+/// The most nodes on a path from the root to a leaf, both counted. Builders keep to it, whatever the
+/// mesh, so that traversals can hold their stacks in fixed arrays.
+inline constexpr int kMaxTreeDepth = 96;
+
 struct Box {
   glm::vec3 lo, hi;
 };

@@ -40,7 +40,8 @@ HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block
   using V = hn::Vec<D>;
   const auto load = [&](int v, int axis) HWY_ATTR { return hn::Load(d, block.vertex[v][axis] + offset); };
   const V v0x = load(0, 0), v0y = load(0, 1), v0z = load(0, 2);
-  const V dx = hn::Set(d, ray.direction[0]), dy = hn::Set(d, ray.direction[1]), dz = hn::Set(d, ray.direction[2]);
+  const V dx = hn::Set(d, ray.direction[0]), dy = hn::Set(d, ray.direction[1]),
+          dz = hn::Set(d, ray.direction[2]);
   const V ax = hn::Sub(v0x, hn::Set(d, ray.origin[0]));
   const V ay = hn::Sub(v0y, hn::Set(d, ray.origin[1]));
   const V az = hn::Sub(v0z, hn::Set(d, ray.origin[2]));
@@ -75,13 +76,12 @@ HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block
   // more than the errors; the limit carries slack for the rounding of this comparison itself.
   const V t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
   const V extent2 = hn::Mul(extent, extent);
-  const V t_error =
-      hn::MulAdd(hn::Mul(reach, hn::Set(d, ray.depth_scale)), extent2, hn::Set(d, 0x1p-120f));
+  const V t_error = hn::MulAdd(hn::Mul(reach, hn::Set(d, ray.depth_scale)), extent2, hn::Set(d, 0x1p-120f));
   const V den_error = hn::Mul(extent2, hn::Set(d, ray.den_scale));
   const V den_magnitude = hn::Abs(den);
   const V t_along = hn::Xor(t_num, hn::And(hn::SignBit(d), den));  // T, negated where den is negative
-  const auto beyond = hn::Gt(hn::Sub(t_along, t_error),
-                             hn::Mul(hn::Set(d, ray.limit), hn::Add(den_magnitude, den_error)));
+  const auto beyond =
+      hn::Gt(hn::Sub(t_along, t_error), hn::Mul(hn::Set(d, ray.limit), hn::Add(den_magnitude, den_error)));
   const auto behind = hn::And(hn::Lt(t_along, hn::Neg(t_error)), hn::Gt(den_magnitude, den_error));
   possible = hn::Not(hn::Or(missed, hn::Or(beyond, behind)));
 }

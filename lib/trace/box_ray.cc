@@ -41,7 +41,9 @@ bool ExactBoxRay::meets(const float lo[3], const float hi[3], float limit, float
 }
 
 BoxRay::BoxRay(const Ray& ray, float greatest)
-    : origin{ray.origin.x, ray.origin.y, ray.origin.z}, tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f), in_range(greatest < 0x1p60f) {
+    : origin{ray.origin.x, ray.origin.y, ray.origin.z},
+      tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f),
+      in_range(greatest < 0x1p60f) {
   const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
   for (int axis = 0; axis < 3; ++axis) {
     const float magnitude = std::fabs(direction[axis]);

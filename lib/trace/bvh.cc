@@ -1,0 +1,113 @@
+#include "plumb/bvh.h"
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "base/fp_mode.h"
+#include "base/parallel.h"
+#include "base/simd_dispatch.h"
+#include "build/binned_sah.h"
+#include "build/mesh_check.h"
+#include "build/tree_statistics.h"
+#include "plumb/error.h"
+#include "trace/binary.h"
+#include "trace/query.h"
+#include "trace/span_calls.h"
+#include "trace/wide_kernels.h"
+#include "wide/collapse.h"
+#include "wide/wide_tree.h"
+
+namespace plumb {
+
+struct Bvh::Impl {
+  std::variant<detail::BinaryScene, detail::WideTree<4>, detail::WideTree<8>> structure;
+  detail::QueryTable queries{};
+  Statistics statistics;
+
+  /// What `queries` take as their structure.
+  const void* data() const {
+    return std::visit([](const auto& s) { return static_cast<const void*>(&s); }, structure);
+  }
+};
+
+namespace {
+
+using detail::BinaryTree;
+
+// What a leaf and a node cost against each other, and how many triangles a test takes at once.
+detail::BinnedSahOptions build_options(int width, const BuildOptions& options) {
+  detail::BinnedSahOptions build;
+  build.threads = options.threads;
+  build.block = width == 2 ? 1 : width;
+  build.max_leaf = width == 2 ? 4 : width;
+  return build;
+}
+
+Statistics statistics_of(const detail::BinaryScene& scene) {
+  Statistics statistics = detail::tree_statistics(scene.tree);
+  statistics.bytes +=
+      scene.triangles.size() * sizeof(detail::Triangle) + scene.ids.size() * sizeof(std::uint32_t);
+  return statistics;
+}
+
+template <int W>
+Statistics statistics_of(const detail::WideTree<W>& tree) {
+  return detail::tree_statistics(tree);
+}
+
+void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& options) {
+  detail::Progress progress(options.progress, mesh.triangles.size());
+  BinaryTree tree = detail::build_binned_sah(mesh, build_options(width, options), progress);
+  const std::uint32_t unseen = tree.unseen;
+  const Simd simd = detail::resolve_simd(options.simd);
+  if (width == 2) {
+    impl.structure = detail::make_binary_scene(std::move(tree), mesh, options.first_id);
+    impl.queries = detail::binary_queries();
+  } else if (width == 4) {
+    impl.structure = detail::collapse<4>(tree, mesh, options.first_id, options.threads);
+    impl.queries = detail::wide4_queries(simd);
+  } else {
+    impl.structure = detail::collapse<8>(tree, mesh, options.first_id, options.threads);
+    impl.queries = detail::wide8_queries(simd);
+  }
+  impl.statistics = std::visit([](const auto& s) { return statistics_of(s); }, impl.structure);
+  impl.statistics.triangles = mesh.triangles.size();
+  impl.statistics.unseen_triangles = unseen;
+}
+
+}  // namespace
+
+Bvh::Bvh(MeshView mesh, const BuildOptions& options) {
+  detail::check_mesh(mesh, options.first_id, "Bvh");
+  // Eight children are at least as fast as four on every target measured (docs/performance.md).
+  const int width = options.width == 0 ? 8 : options.width;
+  if (width != 2 && width != 4 && width != 8) {
+    throw Error("plumb: BuildOptions::width is " + std::to_string(options.width) +
+                "; it must be 0, 2, 4 or 8");
+  }
+  detail::resolve_simd(options.simd);  // throws before the work, not after
+  const auto start = std::chrono::steady_clock::now();
+  auto impl = std::make_shared<Impl>();
+  detail::with_default_fp_mode([&] { build(*impl, mesh, width, options); });
+  impl->statistics.build_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  impl_ = std::move(impl);
+}
+
+Hit Bvh::closest(const Ray& ray) const { return detail::closest_of_one(impl_->queries, impl_->data(), ray); }
+bool Bvh::any(const Ray& ray) const { return detail::any_of_one(impl_->queries, impl_->data(), ray); }
+void Bvh::all(const Ray& ray, std::vector<Hit>& hits) const {
+  detail::all_of_one(impl_->queries, impl_->data(), ray, hits);
+}
+void Bvh::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
+  detail::closest_of_span(impl_->queries, impl_->data(), rays, hits);
+}
+void Bvh::any(std::span<const Ray> rays, std::span<bool> hits) const {
+  detail::any_of_span(impl_->queries, impl_->data(), rays, hits);
+}
+
+Statistics Bvh::statistics() const { return impl_->statistics; }
+
+}  // namespace plumb

@@ -1,0 +1,74 @@
+#include "plumb/cast.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "base/parallel.h"
+#include "plumb/error.h"
+
+namespace plumb {
+namespace {
+
+// Rays of a block of pixels are cast together: neighbours visit the same nodes while these are in
+// the cache.
+constexpr int kBlockWidth = 16;
+constexpr int kBlockHeight = 16;
+
+template <typename Structure>
+void cast_block(const Structure& structure, const Camera& camera, int x0, int y0, Frame& frame) {
+  std::array<Ray, kBlockWidth * kBlockHeight> rays;
+  std::array<Hit, kBlockWidth * kBlockHeight> hits;
+  const int x1 = std::min(x0 + kBlockWidth, camera.width);
+  const int y1 = std::min(y0 + kBlockHeight, camera.height);
+  std::size_t count = 0;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) rays[count++] = camera.ray(x, y);
+  }
+  structure.closest(std::span<const Ray>(rays.data(), count), std::span<Hit>(hits.data(), count));
+  const Hit* hit = hits.data();
+  for (int y = y0; y < y1; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width);
+    for (int x = x0; x < x1; ++x, ++hit) {
+      frame.depth[row + static_cast<std::size_t>(x)] = hit->t;
+      frame.id[row + static_cast<std::size_t>(x)] = hit->id;
+    }
+  }
+}
+
+template <typename Structure>
+void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
+  if (frame.width != camera.width || frame.height != camera.height) {
+    throw Error("plumb: the frame is " + std::to_string(frame.width) + "x" + std::to_string(frame.height) +
+                " but the camera sees " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+                " pixels");
+  }
+  const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+  if (frame.depth.size() != pixels || frame.id.size() != pixels) {
+    throw Error(
+        "plumb: the frame's depth or id holds another number of pixels than its width times its height");
+  }
+  const auto columns = static_cast<std::size_t>((camera.width + kBlockWidth - 1) / kBlockWidth);
+  const auto rows = static_cast<std::size_t>((camera.height + kBlockHeight - 1) / kBlockHeight);
+  detail::Progress progress(options.progress, columns * rows);
+  detail::parallel_for(columns * rows, options.threads, [&](std::size_t block) {
+    if (progress.cancelled()) return;
+    const int x0 = static_cast<int>(block % columns) * kBlockWidth;
+    const int y0 = static_cast<int>(block / columns) * kBlockHeight;
+    cast_block(structure, camera, x0, y0, frame);
+    progress.add(1);
+  });
+  progress.throw_if_cancelled();
+}
+
+}  // namespace
+
+void cast(const Bvh& bvh, const Camera& camera, Frame& frame, const CastOptions& options) {
+  cast_frame(bvh, camera, frame, options);
+}
+
+void cast(const BruteForce& brute, const Camera& camera, Frame& frame, const CastOptions& options) {
+  cast_frame(brute, camera, frame, options);
+}
+
+}  // namespace plumb
