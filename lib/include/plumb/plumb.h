@@ -13,4 +13,5 @@
 #include "plumb/raster.h"
 #include "plumb/ray.h"
 #include "plumb/simd.h"
+#include "plumb/surface.h"
 #include "plumb/version.h"
