@@ -4,14 +4,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <glm/common.hpp>
 
 #include "base/fp_mode.h"
 #include "build/binned_sah.h"
@@ -20,27 +17,18 @@
 #include "build/tree_check.h"
 #include "build/tree_statistics.h"
 #include "build_scenes.h"
+#include "build_util.h"
 #include "plumb/error.h"
 
 using namespace plumb;
 using namespace plumb::detail;
+using namespace build_util;
 
 namespace {
 
 BinaryTree build(const TriangleMesh& mesh, const BinnedSahOptions& options = {}) {
   Progress progress(nullptr, mesh.triangles.size());
   return build_binned_sah(mesh, options, progress);
-}
-
-bool same(const BinaryTree& a, const BinaryTree& b) {
-  return a.unseen == b.unseen && a.order == b.order && a.nodes.size() == b.nodes.size() &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0;
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "; ";
-  return text;
 }
 
 // Triangles handled over all levels: what the time is proportional to.
@@ -51,34 +39,6 @@ std::size_t work(const BinaryTree& tree) {
     below[i] = node.count != 0 ? node.count : below[node.first] + below[node.first + 1];
   }
   return std::accumulate(below.begin(), below.end(), std::size_t{0});
-}
-
-glm::dvec3 doubled_centre(const TriangleMesh& mesh, std::uint32_t triangle) {
-  glm::dvec3 lo(mesh.positions[mesh.triangles[triangle].x]);
-  glm::dvec3 hi = lo;
-  for (int v = 1; v < 3; ++v) {
-    const glm::dvec3 p(mesh.positions[mesh.triangles[triangle][v]]);
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  return lo + hi;
-}
-
-Box box_of(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
-  Box box = empty_box();
-  for (const std::uint32_t triangle : triangles) {
-    for (int v = 0; v < 3; ++v) {
-      box.lo = glm::min(box.lo, mesh.positions[mesh.triangles[triangle][v]]);
-      box.hi = glm::max(box.hi, mesh.positions[mesh.triangles[triangle][v]]);
-    }
-  }
-  return box;
-}
-
-double sah_cost(const TriangleMesh& mesh, std::span<const std::uint32_t> left,
-                std::span<const std::uint32_t> right) {
-  return half_area(box_of(mesh, left)) * static_cast<double>(left.size()) +
-         half_area(box_of(mesh, right)) * static_cast<double>(right.size());
 }
 
 // The least cost of splitting the triangles by one of the planes between `bins` equal slices of an axis.
@@ -101,18 +61,6 @@ double best_binned_cost(const TriangleMesh& mesh, std::span<const std::uint32_t>
     }
   }
   return best;
-}
-
-// The triangles below each node.
-std::vector<std::span<const std::uint32_t>> triangles_below(const BinaryTree& tree) {
-  std::vector<std::span<const std::uint32_t>> below(tree.nodes.size());
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    const BinaryNode& node = tree.nodes[i];
-    below[i] = node.count != 0 ? std::span(tree.order).subspan(node.first, node.count)
-                               : std::span(below[node.first].data(),
-                                           below[node.first].size() + below[node.first + 1].size());
-  }
-  return below;
 }
 
 // Halves by the median centre on the widest axis: what the surface area heuristic must beat.
