@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace plumb::hard {
 namespace {
 
@@ -201,6 +203,39 @@ TriangleMesh coplanar(Random& random) {
   }));
 }
 
+// Across an axis at one of a few levels, with free coordinates otherwise: depths are ratios of two
+// coordinates, while the arithmetic around them rounds.
+TriangleMesh flat(Random& random) {
+  const int axis = random.between(0, 2);
+  std::vector<Corners> triangles;
+  for (int i = 0; i < 20; ++i) {
+    Corners c = {random.unit3(), random.unit3(), random.unit3()};
+    const float level = std::ldexp(random.one_in(2) ? 1.0f : -1.0f, random.between(-1, 1));
+    for (glm::vec3& v : c) v[axis] = level;
+    triangles.push_back(c);
+  }
+  return mesh_of(triangles);
+}
+
+// Seen from the origin, all three edges of every triangle nearly coincide with one plane, and the
+// triangle's own plane nearly holds the origin: (p, q) and (r, s) are neighbours in the Stern-Brocot
+// tree, p s - q r = 1, so determinants of large integers are 0, 1 or little more. See from_zero in
+// hard_rays.cc.
+TriangleMesh unimodular(Random& random) {
+  std::vector<Corners> triangles;
+  for (int i = 0; i < 20; ++i) {
+    glm::vec2 left(0, 1), right(1, 0);
+    const float limit = std::ldexp(1.0f, random.between(6, 22));
+    while (left.x + right.x < limit && left.y + right.y < limit) {
+      (random.one_in(2) ? left : right) = left + right;
+    }
+    const float x0 = std::round(0.5f * limit * random.unit()), x1 = std::round(0.5f * limit * random.unit());
+    const float lift = static_cast<float>(random.between(-3, 3));
+    triangles.push_back({glm::vec3{x0, left}, glm::vec3{x1, right}, glm::vec3{x0 + x1 + lift, left + right}});
+  }
+  return mesh_of(triangles);
+}
+
 // One centre: centroids and nested boxes all agree.
 TriangleMesh concentric(Random& random) {
   std::vector<Corners> triangles;
@@ -277,6 +312,8 @@ constexpr SceneKind kKinds[] = {
     {"non_finite", non_finite},
     {"near_ties", near_ties},
     {"coplanar", coplanar},
+    {"flat", flat},
+    {"unimodular", unimodular},
     {"concentric", concentric},
     {"huge", huge},
     {"tiny", tiny},
