@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kMax = std::numeric_limits<float>::max();
+
+// Of corners numbered by the bits x + 2 y + 4 z.
+constexpr glm::uvec3 kCubeFaces[] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                     {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
 
 using Corners = std::array<glm::vec3, 3>;
 
@@ -76,8 +81,24 @@ TriangleMesh solid(Random& random) {
     for (int i = 0; i < 8; ++i) {
       mesh.positions.push_back(centre + radius * glm::vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
     }
-    mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                      {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+    mesh.triangles.assign(std::begin(kCubeFaces), std::end(kCubeFaces));
+  }
+  random.shuffle(mesh.triangles);
+  return mesh;
+}
+
+// Cuboids across the axes, apart from each other, with integer corners so large that reciprocals round:
+// rays meet the edges and corners of bounding boxes, where their near and far planes tie.
+TriangleMesh cuboids(Random& random) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 5; ++i) {
+    const glm::vec3 lo = random.lattice3(400);
+    const glm::vec3 hi = lo + random.lattice3(60);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int k = 0; k < 8; ++k) {
+      mesh.positions.emplace_back(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
+    }
+    for (const glm::uvec3& face : kCubeFaces) mesh.triangles.push_back(face + first);
   }
   random.shuffle(mesh.triangles);
   return mesh;
@@ -304,6 +325,7 @@ constexpr SceneKind kKinds[] = {
     {"soup", soup},
     {"lattice", lattice},
     {"solid", solid},
+    {"cuboids", cuboids},
     {"fan", fan},
     {"terrain", terrain},
     {"slivers", slivers},
