@@ -1,6 +1,7 @@
 #include "plumb/raster.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -78,6 +79,8 @@ void Rasterizer::Impl::draw_batch(MeshView mesh, std::uint32_t first_id, std::si
 }
 
 void Rasterizer::Impl::draw(MeshView mesh, std::uint32_t first_id) {
+  // A ray from nowhere sees nothing; below this the eye is taken to be finite.
+  if (!std::isfinite(camera.eye.x) || !std::isfinite(camera.eye.y) || !std::isfinite(camera.eye.z)) return;
   detail::Progress progress(options.progress, mesh.triangles.size());
   // A call that can be cancelled must be able to take everything back.
   std::vector<TilePixels> before;
