@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/text.h"
+
+namespace plumb::detail {
+
+/// Walks over the statements of an OBJ text. A statement is a line; a backslash at a line's end
+/// continues it on the next and separates tokens. '#' begins a comment, which ends with its line
+/// whatever its last character. Lines end with LF, CR LF or CR.
+class ObjLexer {
+ public:
+  explicit ObjLexer(std::string_view text) : at_(text.data()), end_(at_ + text.size()) {
+    if (text.starts_with("\xef\xbb\xbf")) at_ += 3;  // a byte order mark
+  }
+
+  bool at_end() const { return at_ == end_; }
+  std::size_t line() const { return line_; }
+  const char* position() const { return at_; }
+  const char* end() const { return end_; }
+
+  /// Passes over blanks and continuations; whether a token follows in this statement.
+  bool has_token() {
+    while (at_ != end_) {
+      if (is_blank(*at_)) {
+        ++at_;
+      } else if (continues(at_)) {
+        ++at_;
+        pass_newline();
+      } else {
+        return !is_newline(*at_) && *at_ != '#';
+      }
+    }
+    return false;
+  }
+
+  /// The token here, without passing it.
+  std::string_view peek() const {
+    const char* token_end = at_;
+    while (!ends_token(token_end)) ++token_end;
+    return {at_, static_cast<std::size_t>(token_end - at_)};
+  }
+
+  /// Passes over the token here, whose end is known.
+  void advance(const char* token_end) { at_ = token_end; }
+
+  /// Whether no character of a token is at p.
+  bool ends_token(const char* p) const {
+    return p == end_ || is_blank(*p) || is_newline(*p) || *p == '#' || continues(p);
+  }
+
+  /// Passes over the rest of the statement, a comment and the line's end.
+  void next_statement() {
+    while (has_token()) advance(peek().data() + peek().size());
+    while (at_ != end_ && !is_newline(*at_)) ++at_;
+    if (at_ != end_) pass_newline();
+  }
+
+ private:
+  static bool is_newline(char c) { return c == '\n' || c == '\r'; }
+  bool continues(const char* p) const { return *p == '\\' && p + 1 != end_ && is_newline(p[1]); }
+
+  void pass_newline() {
+    at_ += *at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n' ? 2 : 1;
+    ++line_;
+  }
+
+  const char* at_;
+  const char* end_;
+  std::size_t line_ = 1;
+};
+
+}  // namespace plumb::detail

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "io/ply_header.h"
+#include "io/text.h"
+
+namespace plumb::detail {
+
+/// The values of a binary PLY body, one after the other. kSwap: the file's byte order is not this
+/// machine's. PlyAsciiSource has the same interface.
+template <bool kSwap>
+class PlyBinarySource {
+ public:
+  PlyBinarySource(std::string_view bytes, const PlyHeader& header, const std::string& file)
+      : begin_(bytes.data()), at_(begin_ + header.bytes), end_(begin_ + bytes.size()), file_(file) {}
+
+  void begin_row(const PlyElement& element, std::uint64_t row) {
+    element_ = &element;
+    row_ = row;
+  }
+  void end_row() {}
+
+  /// The next value, rounded once to the nearest float.
+  float real(const PlyProperty& property) {
+    switch (property.type) {
+      case PlyType::Float32:
+        return load<float>(property);
+      case PlyType::Float64:
+        return static_cast<float>(load<double>(property));
+      default:
+        return static_cast<float>(integer(property.type, property));
+    }
+  }
+
+  /// The next value, of an integer type: of the property's entries or of its list's length.
+  std::int64_t integer(PlyType type, const PlyProperty& property) {
+    switch (type) {
+      case PlyType::Int8:
+        return load<std::int8_t>(property);
+      case PlyType::UInt8:
+        return load<std::uint8_t>(property);
+      case PlyType::Int16:
+        return load<std::int16_t>(property);
+      case PlyType::UInt16:
+        return load<std::uint16_t>(property);
+      case PlyType::Int32:
+        return load<std::int32_t>(property);
+      default:
+        return load<std::uint32_t>(property);
+    }
+  }
+
+  /// Passes over `count` values.
+  void skip(std::uint64_t count, const PlyProperty& property) {
+    const std::size_t size = size_of(property.type);
+    if (count > static_cast<std::size_t>(end_ - at_) / size) fail_short(property);
+    at_ += count * size;
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    fail_in_file(
+        file_,
+        element_->name + " " + std::to_string(row_) + " (before byte " + std::to_string(at_ - begin_) + ")",
+        reason);
+  }
+
+ private:
+  [[noreturn]] void fail_short(const PlyProperty& property) const {
+    fail("the file ends within property " + in_quotes(property.name) + "; it is cut short");
+  }
+
+  template <typename T>
+  T load(const PlyProperty& property) {
+    if (static_cast<std::size_t>(end_ - at_) < sizeof(T)) fail_short(property);
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at_, sizeof(T));
+    if constexpr (kSwap) std::reverse(bytes.begin(), bytes.end());
+    at_ += sizeof(T);
+    return std::bit_cast<T>(bytes);
+  }
+
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  const std::string& file_;
+  const PlyElement* element_ = nullptr;
+  std::uint64_t row_ = 0;
+};
+
+}  // namespace plumb::detail
