@@ -3,13 +3,12 @@ include(CMakePackageConfigHelpers)
 
 set(PLUMB_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/plumb)
 
-install(TARGETS plumb plumb_raster EXPORT plumbTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION ${PLUMB_CMAKE_DIR})
+set(PLUMB_ARCHIVES plumb_raster plumb)  # in the order of linking
 if(PLUMB_BUILD_IO)
-  # An export of its own, so that who does without plumb::io does without its dependencies.
-  install(TARGETS plumb_io EXPORT plumbIoTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT plumbIoTargets NAMESPACE plumb:: DESTINATION ${PLUMB_CMAKE_DIR})
+  list(PREPEND PLUMB_ARCHIVES plumb_io)
 endif()
+install(TARGETS ${PLUMB_ARCHIVES} EXPORT plumbTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION ${PLUMB_CMAKE_DIR})
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/lib/include/plumb ${PROJECT_SOURCE_DIR}/raster/include/plumb
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
@@ -25,11 +24,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/plumbConfig.cmake ${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake
   DESTINATION ${PLUMB_CMAKE_DIR})
 
-# The archives of this build, in linking order, and OpenMesh only if a program calls what needs it.
-set(PLUMB_PC_LIBS "-lplumb_raster -lplumb")
-if(PLUMB_BUILD_IO)
-  set(PLUMB_PC_LIBS "-lplumb_io ${PLUMB_PC_LIBS} -Wl,--push-state,--as-needed -lOpenMeshCore -Wl,--pop-state")
-endif()
+list(TRANSFORM PLUMB_ARCHIVES PREPEND "-l" OUTPUT_VARIABLE PLUMB_PC_LIBS)
+list(JOIN PLUMB_PC_LIBS " " PLUMB_PC_LIBS)
 # Relative to the file itself, so that the installed tree can be moved; absolute install folders stay.
 file(RELATIVE_PATH PLUMB_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 cmake_path(APPEND PLUMB_PC_LIBDIR "\${prefix}" ${CMAKE_INSTALL_LIBDIR})
