@@ -45,6 +45,18 @@ detail::BinnedSahOptions build_options(int width, const BuildOptions& options) {
   return build;
 }
 
+Statistics statistics_of(const detail::BinaryScene& scene) {
+  Statistics statistics = detail::tree_statistics(scene.tree);
+  statistics.bytes +=
+      scene.triangles.size() * sizeof(detail::Triangle) + scene.ids.size() * sizeof(std::uint32_t);
+  return statistics;
+}
+
+template <int W>
+Statistics statistics_of(const detail::WideTree<W>& tree) {
+  return detail::tree_statistics(tree);
+}
+
 void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& options) {
   detail::Progress progress(options.progress, mesh.triangles.size());
   BinaryTree tree = detail::build_binned_sah(mesh, build_options(width, options), progress);
@@ -60,7 +72,7 @@ void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& option
     impl.structure = detail::collapse<8>(tree, mesh, options.first_id, options.threads);
     impl.queries = detail::wide8_queries(simd);
   }
-  impl.statistics = std::visit([](const auto& s) { return tree_statistics(s); }, impl.structure);
+  impl.statistics = std::visit([](const auto& s) { return statistics_of(s); }, impl.structure);
   impl.statistics.triangles = mesh.triangles.size();
   impl.statistics.unseen_triangles = unseen;
 }

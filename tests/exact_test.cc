@@ -1,0 +1,109 @@
+#include "exact/intersect.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oracle/oracle.h"
+#include "support/hard_rays.h"
+#include "support/oracle_adapter.h"
+
+// The scalar arithmetic that everything ends in, against the oracle.
+
+using namespace plumb;
+
+namespace {
+
+detail::Triangle triangle_of(const TriangleMesh& mesh, const glm::uvec3& corners) {
+  return {mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]};
+}
+
+oracle::Triangle to_oracle(const detail::Triangle& t) {
+  return {witness::to_oracle(t.v0), witness::to_oracle(t.v1), witness::to_oracle(t.v2), 0};
+}
+
+// Calls `check(ray, triangle, where)` for every pair of a valid ray and a finite triangle.
+template <typename Check>
+std::size_t for_each_pair(const Check& check) {
+  std::size_t pairs = 0;
+  for (const hard::Case& c : hard::make_cases(40, 24)) {
+    for (std::size_t i = 0; i < c.rays.size(); ++i) {
+      if (!detail::ray_is_valid(c.rays[i])) continue;
+      const std::string where = c.describe(i);
+      for (const glm::uvec3& corners : c.mesh.triangles) {
+        const detail::Triangle triangle = triangle_of(c.mesh, corners);
+        if (!detail::triangle_is_finite(triangle)) continue;
+        check(c.rays[i], triangle, where);
+        ++pairs;
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+TEST_SUITE("exact") {
+  TEST_CASE("a line hits what the oracle says, at its depth") {
+    std::size_t ahead = 0, at_origin = 0, behind = 0, subnormal = 0;
+    const std::size_t pairs =
+        for_each_pair([&](const Ray& ray, const detail::Triangle& triangle, const std::string& where) {
+          const std::optional<float> expected = oracle::line_hit(
+              witness::to_oracle(ray.origin), witness::to_oracle(ray.direction), to_oracle(triangle));
+          float t = -7.0f;
+          const bool hit = detail::line_hit(ray.origin, ray.direction, triangle, t);
+          // CHECK on every pair would cost more than the pair.
+          if (hit != expected.has_value() || (hit && t != *expected)) {
+            CAPTURE(where);
+            REQUIRE(hit == expected.has_value());
+            REQUIRE(t == *expected);
+          }
+          if (!hit) return;
+          ++(t > 0.0f ? ahead : t < 0.0f ? behind : at_origin);
+          subnormal += std::fpclassify(t) == FP_SUBNORMAL ? 1 : 0;
+        });
+    CHECK(pairs > 200000);
+    CHECK(ahead > 10000);
+    CHECK(behind > 2000);
+    CHECK(at_origin > 1000);
+    CHECK(subnormal > 10);
+  }
+
+  TEST_CASE("the depth of a line known to hit is the oracle's") {
+    std::size_t finite = 0, infinite = 0;
+    for_each_pair([&](const Ray& ray, const detail::Triangle& triangle, const std::string& where) {
+      const oracle::Vec3 origin = witness::to_oracle(ray.origin),
+                         direction = witness::to_oracle(ray.direction);
+      if (!oracle::line_meets(origin, direction, to_oracle(triangle))) return;
+      const std::optional<float> expected = oracle::plane_depth(origin, direction, to_oracle(triangle));
+      if (!expected) return;
+      CAPTURE(where);
+      CHECK(detail::line_depth(ray.origin, ray.direction, triangle) == *expected);
+      ++(std::isfinite(*expected) ? finite : infinite);
+    });
+    CHECK(finite > 10000);
+    CHECK(infinite > 100);
+  }
+
+  TEST_CASE("rays and triangles are valid where the oracle says so") {
+    std::size_t bad_rays = 0, bad_triangles = 0;
+    for (const hard::Case& c : hard::make_cases(20, 24)) {
+      for (std::size_t i = 0; i < c.rays.size(); ++i) {
+        CAPTURE(c.describe(i));
+        CHECK(detail::ray_is_valid(c.rays[i]) == oracle::can_see(witness::to_oracle(c.rays[i])));
+        bad_rays += detail::ray_is_valid(c.rays[i]) ? 0 : 1;
+      }
+      for (const glm::uvec3& corners : c.mesh.triangles) {
+        const detail::Triangle triangle = triangle_of(c.mesh, corners);
+        CHECK(detail::triangle_is_finite(triangle) == oracle::can_be_seen(to_oracle(triangle)));
+        bad_triangles += detail::triangle_is_finite(triangle) ? 0 : 1;
+      }
+    }
+    CHECK(bad_rays > 500);
+    CHECK(bad_triangles > 50);
+  }
+}
