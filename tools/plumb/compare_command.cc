@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 struct CompareOptions {
   FrameOptions frame;
   std::string methods = default_methods();
-  std::string out;  ///< empty: no pictures
+  std::optional<std::string> out;  ///< without it no pictures
   bool json = false;
 };
 
@@ -82,14 +82,14 @@ CompareReport compare_runs(const std::vector<Run>& runs, const Scene& scene, con
     report.runs.push_back({run, result.build_seconds, result.frame_seconds, count_seen(result.frame), {}});
     RunReport& entry = report.runs.back();
     fmt::print(stderr, "  {}", timing(entry, longest_name(runs)));
-    if (!options.out.empty()) entry.files = write_pictures(options.out, run.name, result.frame);
+    if (options.out) entry.files = write_pictures(*options.out, run.name, result.frame);
     if (!first) {
       first = std::move(result.frame);
       fmt::print(stderr, "\n");
       continue;
     }
     Pair pair{runs.front().name, run.name, compare(*first, result.frame), std::nullopt};
-    if (!options.out.empty()) pair.picture = write_difference(options.out, pair, *first, result.frame);
+    if (options.out) pair.picture = write_difference(*options.out, pair, *first, result.frame);
     fmt::print(stderr, "  {}\n{}", summary(pair), differences(pair));
     report.pairs.push_back(std::move(pair));
   }
@@ -98,12 +98,12 @@ CompareReport compare_runs(const std::vector<Run>& runs, const Scene& scene, con
 
 ExitStatus run_compare(const CompareOptions& options) {
   const std::vector<Run> runs = plan_runs(parse_methods(options.methods), options.frame.simd);
-  if (!options.out.empty()) make_folder(options.out);
+  if (options.out) make_folder(*options.out);
   const Scene scene = open_scene(options.frame);
   fmt::print(stderr, "{}\n", describe(scene));
   const CompareReport report = compare_runs(runs, scene, options);
   fmt::print(stderr, "{}\n", verdict(report));
-  if (!options.out.empty()) fmt::print(stderr, "pictures are in {}\n", options.out);
+  if (options.out) fmt::print(stderr, "pictures are in {}\n", *options.out);
   if (options.json) print_line(to_json(scene, options.frame.threads, report));
   return exit_status(report.pairs);
 }

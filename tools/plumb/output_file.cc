@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw Error(fmt::format("plumb: cannot write {}: {}", path.string(), reason));
+  throw Error(fmt::format("plumb: cannot write '{}': {}", path.string(), reason));
 }
 
 std::string system_reason(int error) { return std::generic_category().message(error); }

@@ -101,7 +101,8 @@ std::string to_json(const Scene& scene, int threads, const CompareReport& report
                      {"runs", runs},
                      {"pairs", pairs},
                      {"agree", exit_status(report.pairs) == kAgree}};
-  return json.dump(2);
+  // A file's name may hold bytes that are no text.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace plumb::tool

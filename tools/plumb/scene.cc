@@ -40,10 +40,10 @@ glm::vec3 middle_of(const TriangleMesh& mesh) {
 /// The options that were given, over `view`. Looking straight up or down, where y can be no "up", the
 /// frame's top is -z unless --up says otherwise.
 Camera look(const FrameOptions& options, BuiltinScene view, int width, int height) {
-  if (!options.eye.empty()) view.eye = parse_vec3("--eye", options.eye);
-  if (!options.target.empty()) view.target = parse_vec3("--target", options.target);
-  if (!options.up.empty()) {
-    view.up = parse_vec3("--up", options.up);
+  if (options.eye) view.eye = parse_vec3("--eye", *options.eye);
+  if (options.target) view.target = parse_vec3("--target", *options.target);
+  if (options.up) {
+    view.up = parse_vec3("--up", *options.up);
   } else if (view.eye.x == view.target.x && view.eye.z == view.target.z) {
     view.up = {0.0f, 0.0f, -1.0f};
   }
@@ -61,7 +61,7 @@ Scene open_file(const FrameOptions& options, int width, int height) {
   TriangleMesh mesh = load_mesh(options.scene);
   const double fov = options.fov.value_or(kFileFovDegrees);
   Camera camera = frame_all(mesh, width, height, fov);
-  if (!options.eye.empty() || !options.target.empty() || !options.up.empty()) {
+  if (options.eye || options.target || options.up) {
     camera = look(options, {{}, camera.eye, middle_of(mesh), {0.0f, 1.0f, 0.0f}, fov}, width, height);
   }
   return {options.scene, std::move(mesh), camera};
@@ -81,7 +81,6 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
       ->type_name("NAME")
       ->capture_default_str();
   command.add_option("--threads", options.threads, "threads; 0 takes all")
-      ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->capture_default_str();
 }

@@ -14,7 +14,7 @@ namespace plumb::tool {
 struct FrameOptions {
   std::string scene = "builtin:teapot-in-stadium";
   std::string size = "1280x720";
-  std::string eye, target, up;  ///< empty: not given
+  std::optional<std::string> eye, target, up;
   std::optional<double> fov;
   std::string simd = "auto";
   int threads = 0;
