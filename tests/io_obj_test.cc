@@ -141,6 +141,8 @@ TEST_SUITE("obj errors") {
          "unknown statement \"surf\"; only polygons (v, f) are read"},
         {kThree + "V 1 2 3\n", "line 4", "unknown statement \"V\""},
         {"g a \\\n b\nx\n", "line 3", "unknown statement \"x\""},
+        {"v 1 2 3\r\n# c\r\nv 1 2\r\n", "line 3", "found 2 numbers"},
+        {"v 1 2 3\r# c\rv 1 2\r", "line 3", "found 2 numbers"},
         {"a\r\r\nb\n", "line 1", "unknown statement \"a\""},
         {std::string("v 1 2 3\n\0\n", 10), "line 2", "unknown statement \"\\x00\""},
     };

@@ -102,6 +102,18 @@ TEST_SUITE("ply errors") {
     }
   }
 
+  TEST_CASE("one row more than the shortest rows leave room for is too many") {
+    for (const std::string& format : kPlyFormats) {
+      const std::string bytes = make_ply(format, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {2, 1, 0}});
+      REQUIRE(error_of_reading("good.ply", bytes) == "no error");
+      for (const std::string claim : {"vertex 3", "face 2"}) {
+        std::string wrong = bytes;
+        ++wrong[wrong.find(claim) + claim.size() - 1];
+        check_cases({{wrong, "line 7: ", "element \"face\" claims"}});
+      }
+    }
+  }
+
   TEST_CASE("a wrong row of a text is refused with its line") {
     const std::string start = ascii("element vertex 2\n" + kVertexHeader + "end_header\n");
     check_cases({

@@ -177,7 +177,9 @@ TEST_SUITE("ply") {
       const Loaded loaded = read_exact("a.ply", make_ply(format, {}, {}));
       CHECK(loaded.mesh.positions.empty());
       CHECK(loaded.mesh.triangles.empty());
-      CHECK(read_exact("a.ply", "ply\nformat " + format + " 1.0\nend_header\n").mesh.positions.empty());
+      const std::string start = "ply\nformat " + format + " 1.0\n";
+      CHECK(read_exact("a.ply", start + "end_header\n").mesh.positions.empty());
+      CHECK(read_exact("a.ply", start + "element vertex 0\nelement face 0\nend_header\n").report.faces == 0);
     }
     CHECK(read_exact("a.ply", ascii("element vertex 1\n" + kVertexHeader + "end_header\n1 2 3\n"))
               .report.vertices == 1);

@@ -27,7 +27,4 @@ inline Int4 select(Int4 mask, Int4 a, Int4 b) { return (mask & a) | (~mask & b);
 inline Int4 truncate(Float4 a) { return __builtin_convertvector(a, Int4); }
 inline Float4 to_float(Int4 a) { return __builtin_convertvector(a, Float4); }
 
-/// The first three lanes; zero in the fourth.
-inline Float4 xyz(Float4 a) { return std::bit_cast<Float4>(std::bit_cast<Int4>(a) & Int4{-1, -1, -1, 0}); }
-
 }  // namespace plumb::detail

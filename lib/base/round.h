@@ -7,8 +7,8 @@
 // The cast is all there is to it where the compiler obeys. GCC 12's SLP vectorizer does not: of two
 // such casts whose results are stored side by side as doubles it makes a plain copy, unrounded. The
 // library is therefore compiled with -fno-tree-slp-vectorize (cmake/PlumbTarget.cmake), and
-// base/rounding_probe.cc with tests/rounding_test.cc show that the flag is there and does its work.
-// Round through this function, so that what the test shows holds for every rounding of the library.
+// tests/rounding_test.cc shows that the flag does its work. Round through this function, so that what
+// the test shows holds for every rounding of the library.
 
 static_assert(FLT_EVAL_METHOD == 0,
               "plumb needs float and double arithmetic that rounds to its own type (SSE2, not x87)");

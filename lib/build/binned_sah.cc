@@ -4,7 +4,6 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "base/fp_mode.h"
 #include "build/chunks.h"
 #include "build/sah_bins.h"
+#include "build/tree_parts.h"
 #include "build/triangle_refs.h"
 #include "plumb/error.h"
 
@@ -23,8 +23,7 @@
 // counts, minima and maxima are the same in whatever order they are taken.
 //
 // Ranges above kSubtree triangles are split by all threads together and their halves become tasks; a
-// smaller one is built by one thread into an array of its own. At the end all are laid out
-// depth-first.
+// smaller one is built by one thread into an array of its own.
 
 namespace plumb::detail {
 namespace {
@@ -43,11 +42,17 @@ struct Range {
   std::size_t size() const { return end - begin; }
 };
 
-// A subtree: an inner node over two parts, or the nodes built by one thread, whose root is nodes[0].
-struct Part {
-  Box box;
-  std::unique_ptr<Part> child[2];
-  std::vector<BinaryNode> nodes;
+// What the pieces of a range keep between the loops of its split; one piece where one thread does it.
+struct Scratch {
+  struct Piece {
+    SahBins bins;
+    std::size_t left_before;
+    Box4 centres[2];
+  };
+  explicit Scratch(std::size_t count) : pieces(count) {}
+
+  std::vector<Piece> pieces;
+  SahBins sum;
 };
 
 class Builder {
@@ -56,18 +61,22 @@ class Builder {
   BinaryTree run();
 
  private:
-  Range whole() const;
-  void build_part(Part& part, const Range& range);
-  void build_serial(std::vector<BinaryNode>& nodes, std::size_t self, const Range& range, SahBins& bins);
-  BinaryNode make_leaf(const Range& range);
-
-  bool is_surely_leaf(const Range& range) const;
+  std::size_t blocks(const Range& range) const;
+  bool may_be_leaf(const Range& range) const;
+  bool leaf_is_cheapest(const Range& range, const SahSplit& split) const;
   bool is_too_deep_for_sah(const Range& range) const;
   int bin_count(const Range& range) const;
-  bool split(const Range& range, Range halves[2], SahBins& bins) const;
-  void split_together(const Range& range, Range halves[2]) const;
+
+  Range whole() const;
+  bool split(const Range& range, Range halves[2], Scratch& scratch) const;
   void split_by_index(const Range& range, Range halves[2]) const;
-  void make_halves(const Range& range, const SahBins& bins, const SahSplit& split, Range halves[2]) const;
+  const SahBins& fill_bins(const Range& range, const BinMap& map, Scratch& scratch) const;
+  void move_halves(const Range& range, const BinMap& map, const SahSplit& split, Range halves[2],
+                   Scratch& scratch) const;
+
+  void build_part(TreePart& part, const Range& range);
+  void build_serial(std::vector<BinaryNode>& nodes, std::size_t self, const Range& range, Scratch& scratch);
+  BinaryNode make_leaf(const Range& range);
 
   const BinnedSahOptions& options_;
   Progress& progress_;
@@ -75,7 +84,6 @@ class Builder {
   std::unique_ptr<TriangleRef[]> other_;
   TriangleRef* buffer_[2];
   Float4 unit_;
-  int block_shift_;
   std::vector<std::uint32_t> order_;
   std::atomic<bool> stop_{false};
 };
@@ -87,154 +95,145 @@ Builder::Builder(const BinnedSahOptions& options, Progress& progress, MeshView m
       other_(std::make_unique_for_overwrite<TriangleRef[]>(refs_.count)),
       buffer_{refs_.refs.get(), other_.get()},
       unit_(splat(refs_.unit)),
-      block_shift_(std::countr_zero(static_cast<unsigned>(options.block))),
       order_(refs_.count) {
-  if (!progress_.add(refs_.unseen)) stop_ = true;
+  stop_ = !progress_.add(refs_.unseen);
 }
 
-Range Builder::whole() const {
-  Range range;
-  range.end = refs_.count;
-  range.box = refs_.box;
-  const std::size_t pieces = piece_count(range.size(), kPieceSize);
-  std::vector<Box4> centres(pieces);
-  for_pieces(range.size(), pieces, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    Box4 box;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 centre = doubled_centre(refs_.refs[i], unit_);
-      box.add(centre, centre);
-    }
-    centres[piece] = box;
-  });
-  for (const Box4& box : centres) range.centres.add(box);
-  return range;
+// --- Whether and where to split ---
+
+std::size_t Builder::blocks(const Range& range) const {
+  const auto block = static_cast<std::size_t>(options_.block);
+  return (range.size() + block - 1) >> std::countr_zero(block);
 }
 
-// --- Where to split ---
-
-// A split costs at least the test of its node, so a leaf that costs no more needs no search.
-bool Builder::is_surely_leaf(const Range& range) const {
-  const std::size_t blocks = (range.size() + static_cast<std::size_t>(options_.block) - 1) >> block_shift_;
-  return range.size() <= static_cast<std::size_t>(options_.max_leaf) &&
-         (range.size() == 1 || options_.triangle_cost * static_cast<float>(blocks) <= options_.node_cost);
+bool Builder::may_be_leaf(const Range& range) const {
+  return range.size() <= static_cast<std::size_t>(options_.max_leaf);
 }
 
-// Halving by index takes bit_width(size - 1) more levels to get to single triangles. A SAH split may
-// peel off only one triangle, so it must leave its halves that many.
+// Costs are as in Wald 2007, times the area of the range's box.
+bool Builder::leaf_is_cheapest(const Range& range, const SahSplit& split) const {
+  const float area = half_area(range.box, unit_);
+  const float leaf = options_.triangle_cost * static_cast<float>(blocks(range)) * area;
+  return split.axis < 0 || leaf <= options_.node_cost * area + options_.triangle_cost * split.cost;
+}
+
+// Halving by index needs bit_width(units - 1) more levels to come to leaves of one unit. A SAH split
+// may peel off only one triangle, so it must leave its halves that many.
+std::size_t index_unit(const BinnedSahOptions& options) {
+  return static_cast<std::size_t>(std::min(options.block, options.max_leaf));
+}
+
 bool Builder::is_too_deep_for_sah(const Range& range) const {
-  return range.depth + 1 + static_cast<int>(std::bit_width(range.size() - 1)) > kMaxTreeDepth;
+  const std::size_t units = (range.size() + index_unit(options_) - 1) / index_unit(options_);
+  return range.depth + 1 + static_cast<int>(std::bit_width(units - 1)) > options_.max_depth;
 }
 
-// Small ranges have no use for many bins: to search them would cost more than to fill them.
+// Small ranges have no use for many bins: to search them would take longer than to fill them.
 int Builder::bin_count(const Range& range) const {
   return static_cast<int>(
       std::min<std::size_t>(static_cast<std::size_t>(options_.bins), 4 + range.size() / 16));
 }
 
-// Halves the range where it lies, the left half in whole leaves or blocks.
+// False if the range shall be a leaf.
+bool Builder::split(const Range& range, Range halves[2], Scratch& scratch) const {
+  const bool leaf_allowed = may_be_leaf(range);
+  // A split costs the test of its node at least, so a leaf that costs no more needs no search.
+  if (leaf_allowed && options_.triangle_cost * static_cast<float>(blocks(range)) <= options_.node_cost)
+    return false;
+  if (range.size() == 1) return false;
+  SahSplit best;
+  if (!is_too_deep_for_sah(range)) {
+    const BinMap map(range.centres, refs_.unit, bin_count(range));
+    const SahBins& bins = fill_bins(range, map, scratch);
+    best = bins.best_split(unit_, std::countr_zero(static_cast<unsigned>(options_.block)));
+    if (best.axis >= 0 && !(leaf_allowed && leaf_is_cheapest(range, best))) {
+      bins.boxes(best, halves[0].box, halves[1].box);
+      move_halves(range, map, best, halves, scratch);
+      return true;
+    }
+  }
+  if (leaf_allowed) return false;
+  split_by_index(range, halves);
+  return true;
+}
+
+const SahBins& Builder::fill_bins(const Range& range, const BinMap& map, Scratch& scratch) const {
+  std::vector<Scratch::Piece>& pieces = scratch.pieces;
+  const TriangleRef* const refs = buffer_[range.buffer] + range.begin;
+  for_pieces(range.size(), pieces.size(), [&](std::size_t i, std::size_t begin, std::size_t end) {
+    pieces[i].bins.clear(map.bins());
+    pieces[i].bins.add(refs + begin, end - begin, map);
+  });
+  if (pieces.size() == 1) return pieces[0].bins;
+  scratch.sum.clear(map.bins());
+  for (const Scratch::Piece& piece : pieces) scratch.sum.add(piece.bins);
+  return scratch.sum;
+}
+
+// Sets all of the halves but their boxes.
+void Builder::move_halves(const Range& range, const BinMap& map, const SahSplit& split, Range halves[2],
+                          Scratch& scratch) const {
+  std::vector<Scratch::Piece>& pieces = scratch.pieces;
+  std::size_t count_left = 0;
+  for (Scratch::Piece& piece : pieces) {
+    piece.left_before = count_left;
+    count_left += piece.bins.count_left(split);
+  }
+  halves[0].begin = range.begin;
+  halves[0].end = halves[1].begin = range.begin + count_left;
+  halves[1].end = range.end;
+
+  const TriangleRef* const refs = buffer_[range.buffer] + range.begin;
+  TriangleRef* const left = buffer_[1 - range.buffer] + halves[0].begin;
+  TriangleRef* const right = buffer_[1 - range.buffer] + halves[1].begin;
+  for_pieces(range.size(), pieces.size(), [&](std::size_t i, std::size_t begin, std::size_t end) {
+    const std::size_t left_before = pieces[i].left_before;
+    partition(refs + begin, end - begin, map, split, left + left_before, right + (begin - left_before),
+              pieces[i].centres);
+  });
+  for (int side = 0; side < 2; ++side) {
+    halves[side].buffer = 1 - range.buffer;
+    halves[side].depth = range.depth + 1;
+    for (const Scratch::Piece& piece : pieces) halves[side].centres.add(piece.centres[side]);
+  }
+}
+
+// Halves the range where it lies, the left half in whole units.
 void Builder::split_by_index(const Range& range, Range halves[2]) const {
-  const auto unit = static_cast<std::size_t>(std::min(options_.block, options_.max_leaf));
+  const std::size_t unit = index_unit(options_);
   const std::size_t units = (range.size() + unit - 1) / unit;
-  const std::size_t left = units > 1 ? (units + 1) / 2 * unit : (range.size() + 1) / 2;
+  halves[0].begin = range.begin;
+  halves[0].end = halves[1].begin = range.begin + (units + 1) / 2 * unit;
+  halves[1].end = range.end;
   for (int side = 0; side < 2; ++side) {
     Range& half = halves[side];
-    half.begin = side == 0 ? range.begin : range.begin + left;
-    half.end = side == 0 ? range.begin + left : range.end;
     half.buffer = range.buffer;
     half.depth = range.depth + 1;
     for (std::size_t i = half.begin; i < half.end; ++i) {
       const TriangleRef& ref = buffer_[range.buffer][i];
       const Float4 centre = doubled_centre(ref, unit_);
-      half.box.add(ref.lo(), ref.hi);
+      half.box.add(ref.lo, ref.hi);
       half.centres.add(centre, centre);
     }
   }
 }
 
-void Builder::make_halves(const Range& range, const SahBins& bins, const SahSplit& split,
-                          Range halves[2]) const {
-  bins.boxes(split, halves[0].box, halves[1].box);
-  const std::size_t middle = range.begin + bins.count_left(split);
-  halves[0].begin = range.begin;
-  halves[0].end = halves[1].begin = middle;
-  halves[1].end = range.end;
-  halves[0].buffer = halves[1].buffer = 1 - range.buffer;
-  halves[0].depth = halves[1].depth = range.depth + 1;
-}
-
-// False if the range shall be a leaf.
-bool Builder::split(const Range& range, Range halves[2], SahBins& bins) const {
-  if (is_surely_leaf(range)) return false;
-  const bool may_be_leaf = range.size() <= static_cast<std::size_t>(options_.max_leaf);
-  if (is_too_deep_for_sah(range)) {
-    if (!may_be_leaf) split_by_index(range, halves);
-    return !may_be_leaf;
-  }
-  const BinMap map(range.centres, refs_.unit, bin_count(range));
-  const TriangleRef* const refs = buffer_[range.buffer] + range.begin;
-  bins.clear(map.bins());
-  bins.add(refs, range.size(), map);
-  const SahSplit best = bins.best_split(unit_, block_shift_);
-  if (may_be_leaf) {
-    const std::size_t blocks = (range.size() + static_cast<std::size_t>(options_.block) - 1) >> block_shift_;
-    const float area = half_area(range.box, unit_);
-    const float leaf_cost = options_.triangle_cost * static_cast<float>(blocks) * area;
-    if (best.axis < 0 || leaf_cost <= options_.node_cost * area + options_.triangle_cost * best.cost)
-      return false;
-  } else if (best.axis < 0) {
-    split_by_index(range, halves);
-    return true;
-  }
-  make_halves(range, bins, best, halves);
-  TriangleRef* const target = buffer_[halves[0].buffer];
-  Box4 centres[2];
-  partition(refs, range.size(), map, best, target + halves[0].begin, target + halves[1].begin, centres);
-  halves[0].centres = centres[0];
-  halves[1].centres = centres[1];
-  return true;
-}
-
-// The same for a range that is too large for a leaf, by all threads of the arena.
-void Builder::split_together(const Range& range, Range halves[2]) const {
-  const std::size_t pieces = piece_count(range.size(), kPieceSize);
-  std::vector<SahBins> bins(pieces);
-  if (pieces == 1) {
-    split(range, halves, bins[0]);
-    return;
-  }
-  const BinMap map(range.centres, refs_.unit, bin_count(range));
-  const TriangleRef* const refs = buffer_[range.buffer] + range.begin;
-  for_pieces(range.size(), pieces, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    bins[piece].clear(map.bins());
-    bins[piece].add(refs + begin, end - begin, map);
-  });
-  SahBins all = bins[0];
-  for (std::size_t piece = 1; piece < pieces; ++piece) all.add(bins[piece]);
-  const SahSplit best = all.best_split(unit_, block_shift_);
-  if (best.axis < 0 || is_too_deep_for_sah(range)) {
-    split_by_index(range, halves);
-    return;
-  }
-  make_halves(range, all, best, halves);
-  std::vector<std::size_t> left_before(pieces);
-  for (std::size_t piece = 1; piece < pieces; ++piece) {
-    left_before[piece] = left_before[piece - 1] + bins[piece - 1].count_left(best);
-  }
-  std::vector<std::pair<Box4, Box4>> centres(pieces);
-  TriangleRef* const target = buffer_[halves[0].buffer];
-  for_pieces(range.size(), pieces, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    Box4 both[2];
-    partition(refs + begin, end - begin, map, best, target + halves[0].begin + left_before[piece],
-              target + halves[1].begin + (begin - left_before[piece]), both);
-    centres[piece] = {both[0], both[1]};
-  });
-  for (const auto& [left, right] : centres) {
-    halves[0].centres.add(left);
-    halves[1].centres.add(right);
-  }
-}
-
 // --- The tree ---
+
+Range Builder::whole() const {
+  Range range;
+  range.end = refs_.count;
+  range.box = refs_.box;
+  std::vector<Box4> centres(piece_count(range.size(), kPieceSize));
+  for_pieces(range.size(), centres.size(), [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 centre = doubled_centre(refs_.refs[i], unit_);
+      centres[piece].add(centre, centre);
+    }
+  });
+  for (const Box4& box : centres) range.centres.add(box);
+  return range;
+}
 
 BinaryNode Builder::make_leaf(const Range& range) {
   const TriangleRef* const refs = buffer_[range.buffer];
@@ -244,105 +243,73 @@ BinaryNode Builder::make_leaf(const Range& range) {
 }
 
 void Builder::build_serial(std::vector<BinaryNode>& nodes, std::size_t self, const Range& range,
-                           SahBins& bins) {
+                           Scratch& scratch) {
   if (stop_.load(std::memory_order_relaxed)) return;
   Range halves[2];
-  if (!split(range, halves, bins)) {
+  if (!split(range, halves, scratch)) {
     nodes[self] = make_leaf(range);
     return;
   }
   const std::size_t first = nodes.size();
   nodes[self] = {range.box.box(), static_cast<std::uint32_t>(first), 0};
   nodes.resize(first + 2);
-  build_serial(nodes, first, halves[0], bins);
-  build_serial(nodes, first + 1, halves[1], bins);
+  build_serial(nodes, first, halves[0], scratch);
+  build_serial(nodes, first + 1, halves[1], scratch);
 }
 
-void Builder::build_part(Part& part, const Range& range) {
+void Builder::build_part(TreePart& part, const Range& range) {
   if (stop_.load(std::memory_order_relaxed)) return;
   if (range.size() <= kSubtree) {
-    SahBins bins;
+    Scratch scratch(1);
     part.nodes.resize(1);
-    build_serial(part.nodes, 0, range, bins);
+    build_serial(part.nodes, 0, range, scratch);
     return;
   }
   part.box = range.box.box();
   Range halves[2];
-  split_together(range, halves);
-  for (auto& child : part.child) child = std::make_unique<Part>();
+  {
+    Scratch scratch(piece_count(range.size(), kPieceSize));
+    split(range, halves, scratch);  // no leaf: it is larger than any may be
+  }
   const auto build_half = [&](int side) {
     const DefaultFpMode guard;
+    part.child[side] = std::make_unique<TreePart>();
     build_part(*part.child[side], halves[side]);
   };
   tbb::parallel_invoke([&] { build_half(0); }, [&] { build_half(1); });
-}
-
-// Where a part's nodes go: its root to `root`, the others from `rest` on.
-struct Place {
-  const Part* part;
-  std::size_t root, rest;
-};
-
-// Lays out the parts depth-first, as build_serial does with its nodes: both children of a node, what is
-// below the first, what is below the second. Returns the number of nodes; writes nodes of whole parts
-// and leaves the others' places in `places`.
-std::size_t lay_out(const Part& part, std::size_t root, std::size_t next, std::vector<Place>& places) {
-  places.push_back({&part, root, next});
-  if (part.child[0] == nullptr) return next + part.nodes.size() - 1;
-  const std::size_t first = next;
-  next = lay_out(*part.child[0], first, first + 2, places);
-  return lay_out(*part.child[1], first + 1, next, places);
-}
-
-void copy_part(const Place& place, std::vector<BinaryNode>& nodes) {
-  const Part& part = *place.part;
-  if (part.child[0] != nullptr) {
-    nodes[place.root] = {part.box, static_cast<std::uint32_t>(place.rest), 0};
-    return;
-  }
-  for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    BinaryNode node = part.nodes[i];
-    if (node.count == 0) node.first += static_cast<std::uint32_t>(place.rest - 1);
-    nodes[i == 0 ? place.root : place.rest + i - 1] = node;
-  }
 }
 
 BinaryTree Builder::run() {
   BinaryTree tree;
   tree.unseen = refs_.unseen;
   if (refs_.count != 0) {
-    Part root;
+    TreePart root;
     build_part(root, whole());
     progress_.throw_if_cancelled();
-    std::vector<Place> places;
-    tree.nodes.resize(lay_out(root, 0, 1, places));
-    for_pieces(places.size(), piece_count(places.size(), 4),
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) copy_part(places[i], tree.nodes);
-               });
+    tree.nodes = join_parts(root);
   }
   progress_.throw_if_cancelled();
   tree.order = std::move(order_);
   return tree;
 }
 
+void require(bool holds, const char* name, double value, const char* range) {
+  if (holds) return;
+  std::string text = std::to_string(value);
+  throw Error("plumb: BinnedSahOptions::" + std::string(name) + " is " + text + "; it must be " + range);
+}
+
 void check_options(const BinnedSahOptions& options) {
-  const auto require = [](bool holds, const char* name, double value, const char* range) {
-    if (!holds) {
-      throw Error("plumb: BinnedSahOptions::" + std::string(name) + " is " + std::to_string(value) +
-                  "; it must be " + range);
-    }
-  };
+  const auto single_bit = [](int value) { return std::has_single_bit(static_cast<unsigned>(value)); };
   require(options.bins >= 8 && options.bins <= kMaxBins, "bins", options.bins, "8 to 32");
   require(options.max_leaf >= 1 && options.max_leaf <= 255, "max_leaf", options.max_leaf, "1 to 255");
-  require(
-      options.block >= 1 && options.block <= 256 && std::has_single_bit(static_cast<unsigned>(options.block)),
-      "block", options.block, "a power of two up to 256");
-  constexpr float kGreatest = 1e6f;
-  require(options.node_cost >= 0 && options.node_cost <= kGreatest, "node_cost", options.node_cost,
+  require(options.block >= 1 && options.block <= 256 && single_bit(options.block), "block", options.block,
+          "a power of two, 1 to 256");
+  require(options.max_depth >= 1 && options.max_depth <= kMaxTreeDepth, "max_depth", options.max_depth,
+          "1 to kMaxTreeDepth");
+  require(options.node_cost >= 0 && options.node_cost <= 1e6f, "node_cost", options.node_cost, "0 to 1e6");
+  require(options.triangle_cost >= 0 && options.triangle_cost <= 1e6f, "triangle_cost", options.triangle_cost,
           "0 to 1e6");
-  require(options.triangle_cost >= 0 && options.triangle_cost <= kGreatest, "triangle_cost",
-          options.triangle_cost, "0 to 1e6");
 }
 
 }  // namespace

@@ -7,17 +7,24 @@
 namespace plumb::detail {
 
 struct BinnedSahOptions {
-  int bins = 32;               ///< per axis, 8 to 32
+  int bins = 32;               ///< per axis, 8 to 32; small nodes take fewer
   int max_leaf = 8;            ///< most triangles in a leaf, 1 to 255
   float node_cost = 1.0f;      ///< of testing a node's box pair, against...
   float triangle_cost = 1.0f;  ///< ...a block of `block` triangles
-  int block = 1;               ///< triangles that one leaf test takes at once (SIMD lanes)
+  int block = 1;               ///< triangles that one leaf test takes at once (SIMD lanes), a power of two
+  /// Most nodes on a path, if halving alone can keep to it.
+  int max_depth = kMaxTreeDepth;
   int threads = 0;
 };
 
 /// Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies": the surface area
 /// heuristic over bins of centroids. The indices must have been checked. Throws Cancelled through
-/// `progress`.
+/// `progress`, which is given the triangles done.
+///
+/// A range that is too large for a leaf and has no split, for all its boxes have one centre, is halved by
+/// index; so is one whose path would otherwise exceed `max_depth`. So the time is bounded by
+/// max_depth * n, and on any but contrived meshes is n log n. Within a leaf, triangles keep the mesh's
+/// order.
 BinaryTree build_binned_sah(MeshView mesh, const BinnedSahOptions& options, Progress& progress);
 
 }  // namespace plumb::detail

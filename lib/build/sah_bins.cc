@@ -33,11 +33,10 @@ void SahBins::clear(int bins) {
 void SahBins::add(const TriangleRef* refs, std::size_t count, const BinMap& map) {
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleRef& ref = refs[i];
-    const Float4 lo = ref.lo();
-    const Int4 bin = map.bin(lo * map.unit() + ref.hi * map.unit());
+    const Int4 bin = map.bin(doubled_centre(ref, map.unit()));
     for (int axis = 0; axis < 3; ++axis) {
       ++count_[bin[axis]][axis];
-      box_[bin[axis]][axis].add(lo, ref.hi);
+      box_[bin[axis]][axis].add(ref.lo, ref.hi);
     }
   }
 }
@@ -139,8 +138,8 @@ void partition(const TriangleRef* refs, std::size_t count, const BinMap& map, co
     left_centres.add(select(mask, empty.lo, centre), select(mask, empty.hi, centre));
     right_centres.add(select(mask, centre, empty.lo), select(mask, centre, empty.hi));
   }
-  centres[0].add(left_centres);
-  centres[1].add(right_centres);
+  centres[0] = left_centres;
+  centres[1] = right_centres;
 }
 
 }  // namespace plumb::detail

@@ -67,8 +67,8 @@ class SahBins {
 /// Half the area of a box, in the scene's unit.
 float half_area(const Box4& box, Float4 unit);
 
-/// Copies the triangles to `left` and `right` by the split, keeping their order, and joins the doubled
-/// centres of each side to its box. Both must not overlap `refs`.
+/// Copies the triangles to `left` and `right` by the split, keeping their order, and sets the box of each
+/// side's doubled centres. Both must not overlap `refs`.
 void partition(const TriangleRef* refs, std::size_t count, const BinMap& map, const SahSplit& split,
                TriangleRef* left, TriangleRef* right, Box4 centres[2]);
 

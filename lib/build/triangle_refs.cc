@@ -31,11 +31,11 @@ Piece make_piece(MeshView mesh, std::size_t begin, std::size_t end, TriangleRef*
     const Float4 zero = ((a - a) + (b - b)) + (c - c);  // NaN where a coordinate is infinite or NaN
     if (!(zero[0] == 0.0f && zero[1] == 0.0f && zero[2] == 0.0f)) continue;
     const Float4 no_negative_zero = splat(0.0f);
-    Float4 lo = min(a, min(b, c)) + no_negative_zero;
-    const Float4 hi = max(a, max(b, c)) + no_negative_zero;
-    piece.box.add(lo, hi);
-    lo[3] = std::bit_cast<float>(static_cast<std::uint32_t>(i));
-    out[piece.finite++] = {lo, hi};
+    TriangleRef& ref = out[piece.finite++];
+    ref.lo = min(a, min(b, c)) + no_negative_zero;
+    ref.hi = max(a, max(b, c)) + no_negative_zero;
+    piece.box.add(ref.lo, ref.hi);
+    ref.set_index(static_cast<std::uint32_t>(i));
   }
   return piece;
 }

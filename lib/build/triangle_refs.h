@@ -15,7 +15,7 @@
 
 namespace plumb::detail {
 
-/// A box in registers, lanes x, y, z. Starts empty.
+/// A box in registers: lanes x, y, z, and a fourth that means nothing. Starts empty.
 struct Box4 {
   Float4 lo = splat(std::numeric_limits<float>::infinity());
   Float4 hi = splat(-std::numeric_limits<float>::infinity());
@@ -28,14 +28,23 @@ struct Box4 {
   Box box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
 };
 
-/// A triangle's box and index. Lane 3 of `lo_index` holds the index's bits, lane 3 of `hi` is zero.
+/// A triangle's box and index. The box takes lanes 0 to 2; lane 3 of each half holds 16 bits of the
+/// index as a float in [1, 2). As it stands an index would often be a subnormal number, and arithmetic
+/// on the vectors would take its slow path for a lane that nobody reads.
 struct alignas(32) TriangleRef {
-  Float4 lo_index;
+  Float4 lo;
   Float4 hi;
 
-  /// Without the index, whose bits may be a subnormal number: arithmetic on those is slow.
-  Float4 lo() const { return xyz(lo_index); }
-  std::uint32_t index() const { return std::bit_cast<std::uint32_t>(lo_index[3]); }
+  void set_index(std::uint32_t index) {
+    lo[3] = std::bit_cast<float>(kOne | (index & 0xffffu));
+    hi[3] = std::bit_cast<float>(kOne | (index >> 16));
+  }
+  std::uint32_t index() const {
+    return (std::bit_cast<std::uint32_t>(lo[3]) & 0xffffu) | std::bit_cast<std::uint32_t>(hi[3]) << 16;
+  }
+
+ private:
+  static constexpr std::uint32_t kOne = 0x3f800000u;
 };
 static_assert(sizeof(TriangleRef) == 32);
 
@@ -57,6 +66,6 @@ struct TriangleRefs {
 TriangleRefs make_triangle_refs(MeshView mesh);
 
 /// Twice the centre of a triangle's box, in the scene's unit.
-inline Float4 doubled_centre(const TriangleRef& ref, Float4 unit) { return ref.lo() * unit + ref.hi * unit; }
+inline Float4 doubled_centre(const TriangleRef& ref, Float4 unit) { return ref.lo * unit + ref.hi * unit; }
 
 }  // namespace plumb::detail

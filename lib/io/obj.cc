@@ -76,8 +76,9 @@ class ObjReader {
   float read_number() {
     float number = 0.0f;
     const char* end = parse_float(lexer_.position(), lexer_.end(), number);
-    if (end == nullptr || !lexer_.ends_token(end))
+    if (end == nullptr || !lexer_.ends_token(end)) {
       fail("expected a number, found " + in_quotes(lexer_.peek()));
+    }
     lexer_.advance(end);
     return number;
   }

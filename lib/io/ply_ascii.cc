@@ -54,8 +54,9 @@ std::string_view PlyAsciiSource::token() const {
 }
 
 void PlyAsciiSource::begin_value(const PlyProperty& property) {
-  if (at_line_end())
+  if (at_line_end()) {
     fail("the line ends where a value of property " + in_quotes(property.name) + " should be");
+  }
 }
 
 void PlyAsciiSource::end_value(const char* value_end, PlyType type, const PlyProperty& property) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
+#include <span>
 
 #include "base/parallel.h"
-#include "plumb/error.h"
+#include "frame/frame_check.h"
 
 namespace plumb {
 namespace {
@@ -38,16 +38,7 @@ void cast_block(const Structure& structure, const Camera& camera, int x0, int y0
 
 template <typename Structure>
 void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
-  if (frame.width != camera.width || frame.height != camera.height) {
-    throw Error("plumb: the frame is " + std::to_string(frame.width) + "x" + std::to_string(frame.height) +
-                " but the camera sees " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
-                " pixels");
-  }
-  const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-  if (frame.depth.size() != pixels || frame.id.size() != pixels) {
-    throw Error(
-        "plumb: the frame's depth or id holds another number of pixels than its width times its height");
-  }
+  detail::check_frame(frame, camera);
   const auto columns = static_cast<std::size_t>((camera.width + kBlockWidth - 1) / kBlockWidth);
   const auto rows = static_cast<std::size_t>((camera.height + kBlockHeight - 1) / kBlockHeight);
   detail::Progress progress(options.progress, columns * rows);

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/mask_bits-inl.h"
 #include "build/binary_tree.h"
 #include "exact/filter-inl.h"
 #include "exact/filter_ray.h"
@@ -28,14 +29,6 @@ HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// A mask's lanes as bits of a word; at most 16 lanes.
-template <class D>
-HWY_INLINE std::uint32_t MaskBits(D d, hn::Mask<D> mask) {
-  std::uint8_t bytes[8] = {};  // Highway may store up to 8
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0] | (std::uint32_t{bytes[1]} << 8);
-}
 
 // The children that the ray may meet no farther than `limit`, one bit each, and their near values.
 template <int W>

@@ -157,11 +157,16 @@ std::vector<Hit> hits(const std::string& scene) {
   return read_array<Hit>(root() / "truth" / (scene + ".hits.bin"));
 }
 
-std::vector<Hit> frame(const View& view) {
+Frame frame(const View& view) {
   const fs::path path = root() / "truth" / (view.scene + "." + view.name + ".320x180.bin");
-  std::vector<Hit> pixels = read_array<Hit>(path);
-  if (pixels.size() != std::size_t{kFrameWidth} * kFrameHeight) fail(path, "is no frame of 320 x 180");
-  return pixels;
+  const std::vector<Hit> pixels = read_array<Hit>(path);
+  Frame result(kFrameWidth, kFrameHeight);
+  if (pixels.size() != result.id.size()) fail(path, "is no frame of 320 x 180");
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    result.depth[i] = pixels[i].t;
+    result.id[i] = pixels[i].id;
+  }
+  return result;
 }
 
 }  // namespace plumb::shared

@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "plumb/frame.h"
 #include "plumb/mesh.h"
 #include "plumb/ray.h"
 
@@ -47,8 +48,8 @@ TriangleMesh load_scene(const std::string& scene);
 std::vector<Ray> rays(const std::string& scene);
 std::vector<Hit> hits(const std::string& scene);
 
-/// The pixels of a view's frame, row-major from the top.
-std::vector<Hit> frame(const View& view);
+/// What a view sees.
+Frame frame(const View& view);
 
 }  // namespace plumb::shared
 

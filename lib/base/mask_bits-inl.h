@@ -1,0 +1,30 @@
+// A mask's lanes as bits of a word. Included once per Highway target.
+
+#if defined(PLUMB_BASE_MASK_BITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_BASE_MASK_BITS_INL_H_
+#undef PLUMB_BASE_MASK_BITS_INL_H_
+#else
+#define PLUMB_BASE_MASK_BITS_INL_H_
+#endif
+
+#include <cstdint>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Lane 0 in bit 0; at most 16 lanes. (Highway 1.0.3 has no general BitsFromMask.)
+template <class D>
+HWY_INLINE std::uint32_t MaskBits(D d, hn::Mask<D> mask) {
+  std::uint8_t bytes[8] = {};  // Highway may store up to 8
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0] | (std::uint32_t{bytes[1]} << 8);
+}
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

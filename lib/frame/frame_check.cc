@@ -1,0 +1,26 @@
+#include "frame/frame_check.h"
+
+#include <string>
+
+#include "plumb/error.h"
+
+namespace plumb::detail {
+
+void check_frame(const Frame& frame, const Camera& camera) {
+  if (camera.width < 1 || camera.height < 1) {
+    throw Error("plumb: the camera sees " + std::to_string(camera.width) + "x" +
+                std::to_string(camera.height) + " pixels; both sizes must be at least 1");
+  }
+  if (frame.width != camera.width || frame.height != camera.height) {
+    throw Error("plumb: the frame is " + std::to_string(frame.width) + "x" + std::to_string(frame.height) +
+                " but the camera sees " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+                " pixels; give them one size");
+  }
+  const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+  if (frame.depth.size() != pixels || frame.id.size() != pixels) {
+    throw Error("plumb: the frame's depth and id hold " + std::to_string(frame.depth.size()) + " and " +
+                std::to_string(frame.id.size()) + " pixels instead of " + std::to_string(pixels));
+  }
+}
+
+}  // namespace plumb::detail

@@ -1,0 +1,90 @@
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plumb/bvh.h"
+#include "plumb/camera.h"
+#include "plumb/cast.h"
+#include "plumb/frame.h"
+#include "plumb/simd.h"
+#include "support/print.h"
+#include "support/shared_data.h"
+
+// The trees against exact answers that were made without the library.
+
+using namespace plumb;
+
+namespace {
+
+// Scenes below this are small enough to go through every instruction set.
+constexpr std::size_t kFewTriangles = 40000;
+
+void check_rays(const Bvh& bvh, const std::string& scene) {
+  const std::vector<Ray> rays = shared::rays(scene);
+  const std::vector<Hit> expected = shared::hits(scene);
+  REQUIRE(rays.size() == expected.size());
+  std::vector<Hit> closest(rays.size());
+  const auto any = std::make_unique<bool[]>(rays.size());
+  bvh.closest(rays, closest);
+  bvh.any(rays, std::span<bool>(any.get(), rays.size()));
+  std::vector<Hit> all;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    CAPTURE(i);
+    CHECK(closest[i] == expected[i]);
+    CHECK(any[i] == (expected[i].id != kNone));
+    bvh.all(rays[i], all);
+    CHECK((all.empty() ? Hit{} : all.front()) == expected[i]);
+  }
+}
+
+void check_frames(const Bvh& bvh, const std::string& scene) {
+  for (const shared::View& view : shared::views_of(scene)) {
+    CAPTURE(view.name);
+    const Camera camera = Camera::look_at(view.eye, view.target, view.up, view.fov_y_degrees,
+                                          shared::kFrameWidth, shared::kFrameHeight);
+    Frame frame(shared::kFrameWidth, shared::kFrameHeight);
+    cast(bvh, camera, frame);
+    CHECK(compare(frame, shared::frame(view)).different_pixels == 0);
+  }
+}
+
+void check(const std::string& scene, const TriangleMesh& mesh, int width, Simd simd) {
+  CAPTURE(width);
+  CAPTURE(simd_name(simd));
+  BuildOptions options;
+  options.width = width;
+  options.simd = simd;
+  const Bvh bvh(mesh, options);
+  check_rays(bvh, scene);
+  check_frames(bvh, scene);
+}
+
+}  // namespace
+
+TEST_SUITE("truth: trees") {
+  TEST_CASE("trees of every width answer all hard rays and frames as the shared truth does") {
+    PLUMB_REQUIRE_SHARED();
+    for (const std::string& scene : shared::scenes()) {
+      CAPTURE(scene);
+      const TriangleMesh mesh = shared::load_scene(scene);
+      for (const int width : {2, 4, 8}) check(scene, mesh, width, Simd::Auto);
+    }
+  }
+
+  TEST_CASE("on the smaller scenes every instruction set does") {
+    PLUMB_REQUIRE_SHARED();
+    for (const std::string& scene : shared::scenes()) {
+      const TriangleMesh mesh = shared::load_scene(scene);
+      if (mesh.triangles.size() >= kFewTriangles) continue;
+      CAPTURE(scene);
+      for (const Simd simd : simd_targets()) {
+        for (const int width : {4, 8}) check(scene, mesh, width, simd);
+      }
+    }
+  }
+}
