@@ -47,8 +47,9 @@ Camera looking(Random& random, glm::vec3 eye, glm::vec3 target, double fov) {
   try {
     return Camera::look_at(eye, target, up, fov, width, height);
   } catch (const Error&) {
-    return Camera::look_at(eye, {target.x + 0.25f * std::fabs(target.x) + 1.0f, target.y, target.z},
-                           {0.25f, 1, 0.5f}, fov, width, height);
+    // Towards 0, so that it stays finite.
+    const float x = 0.75f * target.x + (target.x > 0.0f ? -1.0f : 1.0f);
+    return Camera::look_at(eye, {x, target.y, target.z}, {0.25f, 1, 0.5f}, fov, width, height);
   }
 }
 
