@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,6 +88,43 @@ TEST_SUITE("exact") {
     });
     CHECK(finite > 10000);
     CHECK(infinite > 100);
+  }
+
+  TEST_CASE("depths at both ends of the floats' range round as all others") {
+    constexpr float kMax = std::numeric_limits<float>::max();
+    constexpr float kInf = std::numeric_limits<float>::infinity();
+    struct Depth {
+      float from, speed, to;  // along z
+      float expected;
+    };
+    // The limit of infinity is 2^128 - 2^103; the greatest float is 2^128 - 2^104.
+    const std::vector<Depth> depths = {
+        {0, 1, kMax, kMax},
+        {-0x1p102f, 1, kMax, kMax},
+        {-0x1.fffffep102f, 1, kMax, kMax},
+        {-0x1p103f, 1, kMax, kInf},
+        {-0x1p103f, -1, kMax, -kInf},
+        {-0x1.fffffep102f, -1, kMax, -kMax},
+        {0, 0x1p-149f, 1, kInf},
+        {0, 0x1p100f, 0x1p-49f, 0x1p-149f},
+        {0, 0x1p100f, 0x1.8p-49f, 0x1p-148f},
+        {0, 0x1p100f, 0x1.4p-48f, 0x1p-148f},
+        {0, 0x1p100f, 0x1p-50f, 0},
+        {0, 0x1p100f, 0x1.000002p-50f, 0x1p-149f},
+        {0, 0x1p100f, 0x1.fffffep-27f, 0x1p-126f},
+        {0, -0x1p100f, 0x1.8p-49f, -0x1p-148f},
+    };
+    for (const Depth& depth : depths) {
+      CAPTURE(depth.from);
+      CAPTURE(depth.speed);
+      CAPTURE(depth.to);
+      const glm::vec3 origin(0, 0, depth.from), direction(0, 0, depth.speed);
+      const detail::Triangle triangle{{-1, -1, depth.to}, {3, -1, depth.to}, {-1, 3, depth.to}};
+      float t = -7.0f;
+      CHECK(detail::line_hit(origin, direction, triangle, t) == std::isfinite(depth.expected));
+      if (std::isfinite(depth.expected)) CHECK(t == depth.expected);
+      CHECK(detail::line_depth(origin, direction, triangle) == depth.expected);
+    }
   }
 
   TEST_CASE("rays and triangles are valid where the oracle says so") {

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "base/round.h"
 #include "exact/intersect.h"
 
 namespace plumb::detail {
@@ -106,7 +107,7 @@ struct DoubleStage {
     const auto low = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(q) & 0x1fffffffu);
     const auto distance = static_cast<double>(std::abs(low - 0x10000000));
     if (!(distance > error_ulps)) return false;
-    t = static_cast<float>(q);
+    t = round_to_float(q);
     return true;
   }
 };

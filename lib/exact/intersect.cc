@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/round.h"
 #include "exact/determinant.h"
 #include "exact/double_stage.h"
 #include "exact/expansion.h"
@@ -65,7 +66,7 @@ bool exact_depth(const glm::vec3& origin, const glm::vec3& direction, const Tria
   // The estimates are good to a few 2^-52, so `quotient` rounds to the right float unless a midpoint
   // lies between it and the true ratio; then it is the midpoint on its own side of the float.
   const double quotient = std::fabs(num.estimate() / den.estimate());
-  float magnitude = static_cast<float>(quotient);
+  float magnitude = round_to_float(quotient);
   const bool above = quotient >= double{magnitude};
   const double midpoint = above ? midpoint_above(magnitude) : midpoint_below(magnitude);
   if (std::fabs(quotient - midpoint) <= 0x1p-45 * midpoint) {
