@@ -55,10 +55,14 @@ Projection::Projection(const Camera& camera)
   // by at most 12 u times the product of the three lengths.
   const double det_magnitude = std::fabs(det);
   const double det_error = 40.0 * kU * step_x * step_y * greatest_max;
-  const double shift_z = dot_abs(row_z, offset) * 1.01;
+  const auto shift_of = [&](const Vector3& row, double row_error) {
+    return 1.01 * (dot_abs(row, offset) + row_error * norm1(offset));
+  };
+  const double shift_z = shift_of(row_z, row_error_z);
   const double size = std::fmax(width, height);
-  const double shift = (std::fmax(dot_abs(row_x, offset), dot_abs(row_y, offset)) * 1.01 + size * shift_z) /
-                       (det_magnitude - det_error - shift_z);
+  const double shift =
+      (std::fmax(shift_of(row_x, row_error_x), shift_of(row_y, row_error_y)) + size * shift_z) /
+      (det_magnitude - det_error - shift_z);
   const bool usable = !exact_only && det_magnitude > 4.0 * (det_error + shift_z) && shift < 0.25;
   slack_px = usable ? 1.01 * shift + 1e-9 : std::numeric_limits<double>::infinity();
 }

@@ -47,6 +47,7 @@ struct Rasterizer::Impl {
         tiles(grid.size(), clear_tile()) {}
 
   void draw(MeshView mesh, std::uint32_t first_id);
+  void draw_batches(MeshView mesh, std::uint32_t first_id);
   void draw_batch(MeshView mesh, std::uint32_t first_id, std::size_t first, std::size_t last,
                   detail::Progress& progress);
   void resolve(Frame& frame) const;
@@ -79,17 +80,29 @@ void Rasterizer::Impl::draw_batch(MeshView mesh, std::uint32_t first_id, std::si
 }
 
 void Rasterizer::Impl::draw(MeshView mesh, std::uint32_t first_id) {
-  // A ray from nowhere sees nothing; below this the eye is taken to be finite.
-  if (!std::isfinite(camera.eye.x) || !std::isfinite(camera.eye.y) || !std::isfinite(camera.eye.z)) return;
+  const glm::vec3& eye = camera.eye;
+  if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)))
+    return;  // no ray sees anything
+  if (!options.progress) {
+    draw_batches(mesh, first_id);
+    return;
+  }
+  // A call that can be cancelled, or whose callback may throw, must be able to take everything back.
+  std::vector<TilePixels> before = tiles;
+  try {
+    draw_batches(mesh, first_id);
+  } catch (...) {
+    tiles = std::move(before);
+    throw;
+  }
+}
+
+void Rasterizer::Impl::draw_batches(MeshView mesh, std::uint32_t first_id) {
   detail::Progress progress(options.progress, mesh.triangles.size());
-  // A call that can be cancelled must be able to take everything back.
-  std::vector<TilePixels> before;
-  if (options.progress) before = tiles;
   const std::size_t count = mesh.triangles.size();
   for (std::size_t first = 0; first < count && !progress.cancelled(); first += kBatch) {
     draw_batch(mesh, first_id, first, std::min(first + kBatch, count), progress);
   }
-  if (progress.cancelled()) tiles = std::move(before);
   progress.throw_if_cancelled();
 }
 
@@ -116,6 +129,8 @@ void Rasterizer::Impl::resolve(Frame& frame) const {
 }
 
 Rasterizer::Rasterizer(const Camera& camera, const RasterOptions& options) {
+  detail::check_camera(camera);
+  static_cast<void>(detail::thread_count(options.threads));  // throws for a negative one
   impl_ = detail::with_default_fp_mode([&] { return std::make_unique<Impl>(camera, options); });
 }
 Rasterizer::~Rasterizer() = default;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/round.h"
 #include "exact/expansion.h"
 
 namespace plumb::detail {
@@ -100,7 +101,7 @@ struct DoubleStage {
     const auto low = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(q) & 0x1fffffffu);
     const auto distance = static_cast<double>(std::abs(low - 0x10000000));
     if (!(distance > error_ulps)) return false;
-    t = static_cast<float>(q);
+    t = round_to_float(q);
     return true;
   }
 };
@@ -192,7 +193,7 @@ bool exact_depth(const glm::vec3& origin, const glm::vec3& direction, const Tria
   // The estimates are good to a few 2^-52, so `quotient` rounds to the right float unless a midpoint
   // lies between it and the true ratio; then it is the midpoint on its own side of the float.
   const double quotient = std::fabs(num.estimate() / den.estimate());
-  float magnitude = static_cast<float>(quotient);
+  float magnitude = round_to_float(quotient);
   const bool above = quotient >= double{magnitude};
   const double midpoint = above ? midpoint_above(magnitude) : midpoint_below(magnitude);
   if (std::fabs(quotient - midpoint) <= 0x1p-45 * midpoint) {

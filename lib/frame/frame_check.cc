@@ -6,11 +6,14 @@
 
 namespace plumb::detail {
 
+void check_camera(const Camera& camera) {
+  if (camera.width >= 1 && camera.height >= 1) return;
+  throw Error("plumb: the camera sees " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+              " pixels; both sizes must be at least 1");
+}
+
 void check_frame(const Frame& frame, const Camera& camera) {
-  if (camera.width < 1 || camera.height < 1) {
-    throw Error("plumb: the camera sees " + std::to_string(camera.width) + "x" +
-                std::to_string(camera.height) + " pixels; both sizes must be at least 1");
-  }
+  check_camera(camera);
   if (frame.width != camera.width || frame.height != camera.height) {
     throw Error("plumb: the frame is " + std::to_string(frame.width) + "x" + std::to_string(frame.height) +
                 " but the camera sees " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
