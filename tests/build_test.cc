@@ -255,6 +255,21 @@ TEST_SUITE("binned SAH") {
     CHECK(gain(build_scenes::grid(100, 3.0f, 45)) > 1.0);
   }
 
+  TEST_CASE("zeros in boxes are positive, whatever the order of the triangles that they came from") {
+    const auto is_negative_zero = [](float x) { return x == 0.0f && std::signbit(x); };
+    std::size_t zeros = 0;
+    for (const build_scenes::Scene& scene : build_scenes::all(1000)) {
+      for (const BinaryNode& node : build(scene.mesh).nodes) {
+        for (int axis = 0; axis < 3; ++axis) {
+          CHECK_FALSE(is_negative_zero(node.box.lo[axis]));
+          CHECK_FALSE(is_negative_zero(node.box.hi[axis]));
+          zeros += node.box.lo[axis] == 0.0f ? 1 : 0;
+        }
+      }
+    }
+    CHECK(zeros > 100);
+  }
+
   TEST_CASE("leaves keep the mesh's order") {
     const TriangleMesh mesh = build_scenes::soup(20000, 1.0f, 0.1f, 22);
     const BinaryTree tree = build(mesh);
@@ -343,6 +358,14 @@ TEST_SUITE("binned SAH") {
 }
 
 TEST_SUITE("mesh check") {
+  TEST_CASE("a mesh too large for one tree is an error before it is read") {
+    const glm::uvec3 nowhere{};
+    MeshView mesh;
+    mesh.triangles = std::span(&nowhere, std::size_t{1} << 31);
+    Progress progress(nullptr, 1);
+    CHECK_THROWS_AS(build_binned_sah(mesh, {}, progress), Error);
+  }
+
   TEST_CASE("an index out of range is named with its triangle") {
     TriangleMesh mesh = build_scenes::soup(100, 1.0f, 0.1f, 30);
     CHECK_NOTHROW(check_mesh(mesh, 0, "Test"));

@@ -268,6 +268,7 @@ BinaryTree Builder::run() {
 BinaryTree build_binned_sah(MeshView mesh, const BinnedSahOptions& options, Progress& progress) {
   require_option(options.bins >= 8 && options.bins <= kMaxBins, "BinnedSahOptions", "bins", options.bins,
                  "8 to 32");
+  require_tree_size(mesh.triangles.size());
   BinaryTree tree;
   in_arena(options.threads, [&] {
     const DefaultFpMode guard;

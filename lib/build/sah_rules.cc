@@ -14,6 +14,14 @@ void require_option(bool holds, const char* type, const char* name, double value
               range);
 }
 
+void require_tree_size(std::size_t triangles) {
+  constexpr std::size_t kMost = 0x7fffffff;
+  if (triangles <= kMost) return;
+  throw Error("plumb: " + std::to_string(triangles) +
+              " triangles are too many for one tree; split the mesh into parts of at most " +
+              std::to_string(kMost));
+}
+
 SahRules::SahRules(const SahOptions& options, const char* type)
     : max_leaf_(static_cast<std::size_t>(options.max_leaf)),
       block_(static_cast<std::size_t>(options.block)),

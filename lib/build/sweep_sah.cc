@@ -205,6 +205,7 @@ BinaryTree Builder::run() {
 }  // namespace
 
 BinaryTree build_sweep_sah(MeshView mesh, const SweepSahOptions& options, Progress& progress) {
+  require_tree_size(mesh.triangles.size());
   BinaryTree tree;
   in_arena(1, [&] {
     const DefaultFpMode guard;

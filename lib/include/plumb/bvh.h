@@ -64,8 +64,8 @@ class Bvh {
  public:
   /// Copies what it needs of the mesh, which may have any number of triangles, none as well. Triangles
   /// with a NaN or infinite coordinate are left out, and counted in statistics().
-  /// Throws plumb::Error for a vertex index out of range, ids that reach kNone and options out of
-  /// range, and Cancelled when the options' progress says so.
+  /// Throws plumb::Error for a vertex index out of range, ids that reach kNone, 2^31 triangles and
+  /// more, and options out of range, and Cancelled when the options' progress says so.
   explicit Bvh(MeshView mesh, const BuildOptions& options = {});
 
   /// The smallest (t, id) among the hits that count, those with max(ray.tmin, 0) < t <= ray.tmax;
