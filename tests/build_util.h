@@ -10,29 +10,36 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "build/binary_tree.h"
+#include "base/parallel.h"
+#include "build/binned_sah.h"
 #include "build/box.h"
 #include "plumb/mesh.h"
 
-// What the tests of all builders ask of their trees.
+// What the tests of builders ask of their trees.
 
-namespace build_util {
+namespace build_scenes {
 
 using plumb::TriangleMesh;
 using plumb::detail::BinaryNode;
 using plumb::detail::BinaryTree;
 using plumb::detail::Box;
 
-/// Whether the trees are equal to the bit.
-inline bool same(const BinaryTree& a, const BinaryTree& b) {
-  return a.unseen == b.unseen && a.order == b.order && a.nodes.size() == b.nodes.size() &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0;
+inline BinaryTree build(const TriangleMesh& mesh, const plumb::detail::BinnedSahOptions& options = {}) {
+  plumb::detail::Progress progress(nullptr, mesh.triangles.size());
+  return plumb::detail::build_binned_sah(mesh, options, progress);
 }
 
+/// What a check returns as one text; empty when all holds.
 inline std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + "; ";
   return text;
+}
+
+/// Whether the trees are equal to the bit.
+inline bool same(const BinaryTree& a, const BinaryTree& b) {
+  return a.unseen == b.unseen && a.order == b.order && a.nodes.size() == b.nodes.size() &&
+         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0;
 }
 
 inline glm::dvec3 doubled_centre(const TriangleMesh& mesh, std::uint32_t triangle) {
@@ -76,4 +83,4 @@ inline std::vector<std::span<const std::uint32_t>> triangles_below(const BinaryT
   return below;
 }
 
-}  // namespace build_util
+}  // namespace build_scenes

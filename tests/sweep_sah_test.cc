@@ -21,7 +21,11 @@
 
 using namespace plumb;
 using namespace plumb::detail;
-using namespace build_util;
+using build_scenes::doubled_centre;
+using build_scenes::joined;
+using build_scenes::sah_cost;
+using build_scenes::same;
+using build_scenes::triangles_below;
 
 namespace {
 
@@ -100,25 +104,22 @@ TEST_SUITE("sweep SAH") {
     }
   }
 
-  // Either takes the best step, which need not lead to the best tree. Measured over these scenes of 20000
-  // triangles: the sweep's tree costs at most 1.0005 times the binned one's; with 8, 16 and 32 bins that
-  // one costs up to 1.026, 1.027 and 1.024 times the sweep's on the ordinary scenes (the first four)
-  // and up to 1.061 on the others.
+  // Either takes the best step, which need not lead to the best tree. Measured here: with 8, 16 and 32 bins
+  // the tree costs 1.000 to 1.029, 1.027 and 1.027 times the sweep's; but 1.09, 1.12 and 1.01 times where
+  // places and sizes lie over 240 powers of two, of which equal bins can tell only the last few apart.
   TEST_CASE("binned trees cost a few percent more, with 8, 16 or 32 bins") {
-    const std::vector<build_scenes::Scene> scenes = build_scenes::all(20000);
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      const TriangleMesh& mesh = scenes[i].mesh;
-      CAPTURE(scenes[i].name);
+    for (const build_scenes::Scene& scene : build_scenes::all(20000)) {
+      CAPTURE(scene.name);
       SweepSahOptions options;
       options.max_leaf = 1;
-      const double cost = tree_statistics(build(mesh, options)).sah_cost;
+      const double cost = tree_statistics(build(scene.mesh, options)).sah_cost;
       for (const int bins : {8, 16, 32}) {
         CAPTURE(bins);
-        const BinaryTree binned = build_binned(mesh, 1, bins);
-        CHECK(joined(check_tree(binned, mesh, 1)) == "");
+        const BinaryTree binned = build_binned(scene.mesh, 1, bins);
+        CHECK(joined(check_tree(binned, scene.mesh, 1)) == "");
         const double ratio = tree_statistics(binned).sah_cost / cost;
         CHECK(ratio > 0.999);
-        CHECK(ratio < (i < 4 ? 1.03 : 1.07));
+        CHECK(ratio < (scene.name == "exponential" ? 1.13 : 1.03));
       }
     }
   }
