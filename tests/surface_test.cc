@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -250,7 +248,10 @@ TEST_SUITE("surface") {
           const detail::FpMode kept = detail::fp_mode() & detail::kFpModeBits;
           detail::set_fp_mode(saved);
           REQUIRE(kept == set);
-          REQUIRE(std::memcmp(&s, &other, sizeof s) == 0);
+          REQUIRE(s.u == other.u);
+          REQUIRE(s.v == other.v);
+          REQUIRE(s.point == other.point);
+          REQUIRE(s.normal == other.normal);
           ++hits_seen;
         }
       }

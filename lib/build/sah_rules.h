@@ -19,8 +19,8 @@ struct SahOptions {
 /// What follows from the options for a range of triangles, however its split is searched.
 class SahRules {
  public:
-  /// Throws plumb::Error for an option out of range; `name` is the options' type.
-  SahRules(const SahOptions& options, const char* name);
+  /// Throws plumb::Error for an option out of range; `type` is the name of the options' type.
+  SahRules(const SahOptions& options, const char* type);
 
   /// Leaf tests that the triangles take; a part of a block costs as much as the whole.
   std::size_t blocks(std::size_t triangles) const { return (triangles + block_ - 1) >> block_shift_; }
