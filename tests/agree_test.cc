@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fp_mode.h"
 #include "oracle/oracle.h"
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
@@ -139,4 +140,28 @@ TEST_SUITE("agree: queries") {
       }
     }
   }
+
+#if defined(__SSE2__)
+  TEST_CASE("the caller's flush modes and rounding direction change no answer") {
+    const detail::FpMode saved = detail::fp_mode();
+    for (const unsigned mode : {0x8040u, 0x2000u, 0xe040u}) {  // FTZ and DAZ; downward; both and to zero
+      CAPTURE(mode);
+      for (const Answered& a : answered_cases()) {
+        const std::size_t count = a.c.rays.size();
+        std::vector<Hit> closest(count);
+        std::vector<std::vector<Hit>> all(count);
+        detail::set_fp_mode((saved & ~detail::kFpModeBits) | mode);
+        const Bvh bvh(a.c.mesh);
+        bvh.closest(a.c.rays, closest);
+        for (std::size_t i = 0; i < count; ++i) bvh.all(a.c.rays[i], all[i]);
+        detail::set_fp_mode(saved);
+        for (std::size_t i = 0; i < count; ++i) {
+          INFO(a.c.describe(i));
+          CHECK(closest[i] == a.closest(i));
+          CHECK(all[i] == a.hits[i]);
+        }
+      }
+    }
+  }
+#endif
 }

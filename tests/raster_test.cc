@@ -48,7 +48,7 @@ std::vector<View> hard_views(std::uint64_t seeds) {
         ++seed;
         hard::Random random(seed);
         TriangleMesh mesh = scene.make(random);
-        const Camera camera = hard::make_camera(kind, seed, mesh);
+        const Camera camera = kind.make(random, mesh);
         views.push_back(make_view(
             std::string(scene.name) + " from " + std::string(kind.name) + ", seed " + std::to_string(seed),
             std::move(mesh), camera));

@@ -15,7 +15,7 @@ using namespace plumb;
 
 namespace {
 
-// Every so manieth pixel is checked. The number is coprime with the width, so all columns are met.
+// One pixel in so many is checked. The number is coprime with the width, so all columns are met.
 constexpr std::size_t kPixelStride = 57;
 
 }  // namespace
