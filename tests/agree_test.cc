@@ -14,6 +14,7 @@
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
 #include "plumb/simd.h"
+#include "support/effort.h"
 #include "support/hard_rays.h"
 #include "support/oracle_adapter.h"
 #include "support/print.h"
@@ -24,7 +25,7 @@ using namespace plumb;
 
 namespace {
 
-constexpr std::uint64_t kSeeds = 12;
+constexpr std::uint64_t kSeeds = hard::effort(std::uint64_t{12});
 constexpr std::size_t kRays = 24;
 
 // A case whose rays come with all of their hits.

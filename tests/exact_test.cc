@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oracle/oracle.h"
+#include "support/effort.h"
 #include "support/hard_rays.h"
 #include "support/oracle_adapter.h"
 
@@ -31,7 +32,7 @@ oracle::Triangle to_oracle(const detail::Triangle& t) {
 template <typename Check>
 std::size_t for_each_pair(const Check& check) {
   std::size_t pairs = 0;
-  for (const hard::Case& c : hard::make_cases(40, 24)) {
+  for (const hard::Case& c : hard::make_cases(hard::effort(40u), 24)) {
     for (std::size_t i = 0; i < c.rays.size(); ++i) {
       if (!detail::ray_is_valid(c.rays[i])) continue;
       const std::string where = c.describe(i);

@@ -14,6 +14,7 @@
 
 #include "plumb/simd.h"
 #include "raster_util.h"
+#include "support/effort.h"
 #include "support/hard_cameras.h"
 #include "support/hard_scenes.h"
 
@@ -24,7 +25,7 @@ using namespace plumb::raster_test;
 
 namespace {
 
-constexpr std::uint64_t kSeeds = 8;
+constexpr std::uint64_t kSeeds = hard::effort(std::uint64_t{8});
 
 struct View {
   std::string name;

@@ -295,8 +295,8 @@ BinaryTree Builder::run() {
 
 void require(bool holds, const char* name, double value, const char* range) {
   if (holds) return;
-  std::string text = std::to_string(value);
-  throw Error("plumb: BinnedSahOptions::" + std::string(name) + " is " + text + "; it must be " + range);
+  throw Error("plumb: BinnedSahOptions::" + std::string(name) + " is " + std::to_string(value) +
+              "; it must be " + range);
 }
 
 void check_options(const BinnedSahOptions& options) {
@@ -316,6 +316,13 @@ void check_options(const BinnedSahOptions& options) {
 
 BinaryTree build_binned_sah(MeshView mesh, const BinnedSahOptions& options, Progress& progress) {
   check_options(options);
+  // Bins count with a sign, and there may be twice as many nodes.
+  constexpr std::size_t kMostTriangles = 0x7fffffff;
+  if (mesh.triangles.size() > kMostTriangles) {
+    throw Error("plumb: " + std::to_string(mesh.triangles.size()) +
+                " triangles are too many for one tree; split the mesh into parts of at most " +
+                std::to_string(kMostTriangles));
+  }
   BinaryTree tree;
   in_arena(options.threads, [&] {
     const DefaultFpMode guard;

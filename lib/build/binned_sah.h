@@ -19,7 +19,8 @@ struct BinnedSahOptions {
 
 /// Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies": the surface area
 /// heuristic over bins of centroids. The indices must have been checked. Throws Cancelled through
-/// `progress`, which is given the triangles done.
+/// `progress`, which is given the triangles done, and Error for options out of range and meshes of 2^31
+/// triangles or more.
 ///
 /// A range that is too large for a leaf and has no split, for all its boxes have one centre, is halved by
 /// index; so is one whose path would otherwise exceed `max_depth`. So the time is bounded by
