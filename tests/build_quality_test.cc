@@ -6,10 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <glm/common.hpp>
-
 #include "build/binned_sah.h"
-#include "build/box.h"
 #include "build/tree_check.h"
 #include "build/tree_statistics.h"
 #include "build_scenes.h"
@@ -17,38 +14,14 @@
 
 using namespace plumb;
 using namespace plumb::detail;
+using build_scenes::box_of;
 using build_scenes::build;
+using build_scenes::doubled_centre;
 using build_scenes::joined;
+using build_scenes::sah_cost;
+using build_scenes::triangles_below;
 
 namespace {
-
-glm::dvec3 doubled_centre(const TriangleMesh& mesh, std::uint32_t triangle) {
-  glm::dvec3 lo(mesh.positions[mesh.triangles[triangle].x]);
-  glm::dvec3 hi = lo;
-  for (int v = 1; v < 3; ++v) {
-    const glm::dvec3 p(mesh.positions[mesh.triangles[triangle][v]]);
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  return lo + hi;
-}
-
-Box box_of(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
-  Box box = empty_box();
-  for (const std::uint32_t triangle : triangles) {
-    for (int v = 0; v < 3; ++v) {
-      box.lo = glm::min(box.lo, mesh.positions[mesh.triangles[triangle][v]]);
-      box.hi = glm::max(box.hi, mesh.positions[mesh.triangles[triangle][v]]);
-    }
-  }
-  return box;
-}
-
-double sah_cost(const TriangleMesh& mesh, std::span<const std::uint32_t> left,
-                std::span<const std::uint32_t> right) {
-  return half_area(box_of(mesh, left)) * static_cast<double>(left.size()) +
-         half_area(box_of(mesh, right)) * static_cast<double>(right.size());
-}
 
 // The least cost of splitting the triangles by one of the planes between `bins` equal slices of an axis.
 double best_binned_cost(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles, int bins) {
@@ -70,18 +43,6 @@ double best_binned_cost(const TriangleMesh& mesh, std::span<const std::uint32_t>
     }
   }
   return best;
-}
-
-// The triangles below each node.
-std::vector<std::span<const std::uint32_t>> triangles_below(const BinaryTree& tree) {
-  std::vector<std::span<const std::uint32_t>> below(tree.nodes.size());
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    const BinaryNode& node = tree.nodes[i];
-    below[i] = node.count != 0 ? std::span(tree.order).subspan(node.first, node.count)
-                               : std::span(below[node.first].data(),
-                                           below[node.first].size() + below[node.first + 1].size());
-  }
-  return below;
 }
 
 // Halves by the median centre on the widest axis: what the surface area heuristic must beat.

@@ -2,18 +2,13 @@
 
 #include "base/parallel.h"
 #include "build/binary_tree.h"
+#include "build/sah_rules.h"
 #include "plumb/mesh.h"
 
 namespace plumb::detail {
 
-struct BinnedSahOptions {
-  int bins = 32;               ///< per axis, 8 to 32; small nodes take fewer
-  int max_leaf = 8;            ///< most triangles in a leaf, 1 to 255
-  float node_cost = 1.0f;      ///< of testing a node's box pair, against...
-  float triangle_cost = 1.0f;  ///< ...a block of `block` triangles
-  int block = 1;               ///< triangles that one leaf test takes at once (SIMD lanes), a power of two
-  /// Most nodes on a path, if halving alone can keep to it.
-  int max_depth = kMaxTreeDepth;
+struct BinnedSahOptions : SahOptions {
+  int bins = 32;  ///< per axis, 8 to 32; small nodes take fewer
   int threads = 0;
 };
 

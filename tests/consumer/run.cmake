@@ -1,6 +1,6 @@
 # Installs a build of plumb into a fresh folder and uses it from there: by find_package and by
 # pkg-config. Called by ctest with
-#   cmake -D PLUMB_BUILD=DIR -D WORK=DIR -D CONSUMER=DIR -D CXX=COMPILER -D FLAGS=... -P run.cmake
+#   cmake -D PLUMB_BUILD=DIR -D WORK=DIR -D CONSUMER=DIR -D EXAMPLES=DIR -D CXX=COMPILER -D FLAGS=... -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -29,6 +29,12 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/found -G Ninja -DCMAKE_PREFIX_PAT
 run(${CMAKE_COMMAND} --build ${WORK}/found)
 run(${CMAKE_COMMAND} -E chdir ${WORK}/found ./consumer)
 message(STATUS "find_package: ${output}")
+
+run(${CMAKE_COMMAND} -S ${EXAMPLES} -B ${WORK}/examples -G Ninja -DCMAKE_PREFIX_PATH=${prefix}
+  -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build ${WORK}/examples)
+run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/examples --no-tests=error)
+message(STATUS "examples: built and run")
 
 find_program(PKG_CONFIG pkg-config REQUIRED)
 file(GLOB_RECURSE package ${prefix}/plumb.pc)

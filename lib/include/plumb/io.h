@@ -9,9 +9,9 @@ namespace plumb {
 
 /// What a mesh file held.
 struct MeshReport {
-  std::size_t vertices = 0;
-  std::size_t faces = 0;  ///< as in the file, before polygons became triangles
-  std::size_t triangles = 0;
+  std::size_t vertices = 0;             ///< positions, used or not
+  std::size_t faces = 0;                ///< as in the file, before polygons became triangles
+  std::size_t triangles = 0;            ///< in the mesh
   std::size_t non_finite_vertices = 0;  ///< a coordinate is NaN or infinite
   std::size_t unseen_triangles = 0;     ///< triangles with such a vertex: kept, never seen
 };
