@@ -29,7 +29,7 @@ struct TriangleSetup {
 /// Sets up one triangle. Returns how many records it made: 0 where no pixel sees it, 1, or 2 where the
 /// side that it turns to the eye is not certain (one for each side; then each pixel it may cover is decided
 /// exactly, and deciding a pixel twice changes nothing). The triangle's coordinates may be anything.
-int set_up_triangle(const Projection& projection, const glm::vec3& eye, const Triangle& triangle,
+int set_up_triangle(const Projection& view, const glm::vec3& eye, const Triangle& triangle,
                     std::uint32_t index, TriangleSetup records[2]);
 
 }  // namespace plumb::detail

@@ -86,8 +86,9 @@ Camera raster(Random& random, glm::vec3 eye, double step, double forward) {
   glm::dvec3 corner(0.0), du(0.0), dv(0.0);
   du[(axis + 1) % 3] = step;
   dv[(axis + 2) % 3] = -step;
-  // Pixel (width / 2, height / 2) looks straight along the axis.
-  corner = -((width / 2) + 0.5) * du - ((height / 2) + 0.5) * dv;
+  // This pixel looks straight along the axis.
+  const int middle_x = width / 2, middle_y = height / 2;
+  corner = -(middle_x + 0.5) * du - (middle_y + 0.5) * dv;
   corner[axis] = forward;
   return Camera(eye, corner, du, dv, width, height);
 }

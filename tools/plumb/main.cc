@@ -15,8 +15,10 @@
 namespace plumb::tool {
 namespace {
 
-int complain(std::string_view message) {
-  fmt::print(stderr, "{}{}\n", message.starts_with("plumb: ") ? "" : "plumb: ", message);
+/// Says what is wrong, in C's own way, which cannot throw.
+int complain(const char* message) noexcept {
+  const bool has_prefix = std::strncmp(message, "plumb: ", 7) == 0;
+  std::fprintf(stderr, "%s%s\n", has_prefix ? "" : "plumb: ", message);
   return kBadInput;
 }
 
@@ -32,10 +34,6 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // Asking for help or the version is no failure; CLI11 prints either.
     return app.exit(error) == 0 ? kAgree : kBadInput;
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory");
-  } catch (const std::exception& error) {
-    return complain(error.what());
   }
   return status;
 }
@@ -43,4 +41,12 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace plumb::tool
 
-int main(int argc, char** argv) { return plumb::tool::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return plumb::tool::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return plumb::tool::complain("out of memory");
+  } catch (const std::exception& error) {
+    return plumb::tool::complain(error.what());
+  }
+}

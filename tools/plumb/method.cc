@@ -22,7 +22,7 @@ const MethodInfo& info(Method method) {
 }
 
 std::vector<Simd> parse_targets(std::string_view name) {
-  const std::vector<Simd> usable = simd_targets();
+  std::vector<Simd> usable = simd_targets();
   if (name == "all") return usable;
   const Simd simd = parse_simd(name);
   if (simd == Simd::Auto) return {usable.front()};
