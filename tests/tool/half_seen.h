@@ -18,6 +18,8 @@ inline Frame half_seen() {
   return frame;
 }
 
-inline std::size_t at(int x, int y) { return static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x); }
+inline std::size_t at(int x, int y) {
+  return static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+}
 
 }  // namespace plumb::test
