@@ -10,7 +10,9 @@
 
 #include "base/fp_mode.h"
 #include "io/obj.h"
+#include "io/off.h"
 #include "io/ply.h"
+#include "io/stl.h"
 #include "plumb/error.h"
 #include "plumb/io.h"
 
@@ -27,7 +29,10 @@ struct Format {
   Reader reader;
 };
 
-constexpr std::array<Format, 2> kFormats = {{{".ply", detail::read_ply}, {".obj", detail::read_obj}}};
+constexpr std::array<Format, 4> kFormats = {{{".ply", detail::read_ply},
+                                             {".obj", detail::read_obj},
+                                             {".stl", detail::read_stl},
+                                             {".off", detail::read_off}}};
 
 Reader reader_for(const fs::path& path) {
   std::string extension = path.extension().string();

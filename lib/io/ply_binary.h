@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
+#include "io/binary.h"
 #include "io/ply_header.h"
 #include "io/text.h"
 
@@ -80,11 +77,9 @@ class PlyBinarySource {
   template <typename T>
   T load(const PlyProperty& property) {
     if (static_cast<std::size_t>(end_ - at_) < sizeof(T)) fail_short(property);
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at_, sizeof(T));
-    if constexpr (kSwap) std::reverse(bytes.begin(), bytes.end());
+    const T value = load_binary<T, kSwap>(at_);
     at_ += sizeof(T);
-    return std::bit_cast<T>(bytes);
+    return value;
   }
 
   const char* begin_;
