@@ -13,11 +13,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "base/mask_bits-inl.h"
 #include "hwy/highway.h"
 #include "pixels/tile_planes-inl.h"
 #include "pixels/tile_state-inl.h"
+#include "raster/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
@@ -114,7 +116,8 @@ HWY_INLINE void DrawBlock(const TileTask& task, const TilePlanes& planes, std::u
 }
 
 // The blocks that hold pixels of the triangle's box, one bit each.
-HWY_INLINE std::uint64_t BoxBlocks(const TileTask& task, const ScreenTriangle& triangle, int& row0, int& row1) {
+HWY_INLINE std::uint64_t BoxBlocks(const TileTask& task, const ScreenTriangle& triangle, int& row0,
+                                   int& row1) {
   const int column0 = (std::max(triangle.x0, task.x) - task.x) / kBlockPx;
   const int column1 = (std::min(triangle.x1, task.x + kTilePx - 1) - task.x) / kBlockPx;
   row0 = (std::max(triangle.y0, task.y) - task.y) / kBlockPx;
@@ -124,7 +127,8 @@ HWY_INLINE std::uint64_t BoxBlocks(const TileTask& task, const ScreenTriangle& t
   return columns * 0x0101010101010101u & rows;
 }
 
-HWY_INLINE void DrawPlaced(const TileTask& task, const TilePlanes& planes, std::uint32_t index, TileState& state) {
+HWY_INLINE void DrawPlaced(const TileTask& task, const TilePlanes& planes, std::uint32_t index,
+                           TileState& state) {
   const hn::CappedTag<float, 16> d;
   int row0 = 0, row1 = 0;
   const std::uint64_t box = BoxBlocks(task, task.triangles[index], row0, row1);
@@ -153,12 +157,22 @@ HWY_INLINE void DrawPlaced(const TileTask& task, const TilePlanes& planes, std::
 
 HWY_INLINE void DrawTriangle(const TileTask& task, std::uint32_t index, TileState& state) {
   const ScreenTriangle& triangle = task.triangles[index];
+  if (triangle.x0 >= task.x + kTilePx || triangle.x1 < task.x || triangle.y0 >= task.y + kTilePx ||
+      triangle.y1 < task.y)
+    return;
   TilePlanes planes;
   const bool met = PlacePlanes(triangle, task.x, task.y, planes);
   if (met) DrawPlaced(task, planes, index, state);
   if (HWY_UNLIKELY(triangle.side_open)) {
     TurnEdges(planes);
     DrawPlaced(task, planes, index, state);
+  }
+}
+
+inline void DrawEntries(const TileTask& task, std::span<const BinEntry> entries, TileState& state) {
+  for (const BinEntry& entry : entries) {
+    if (entry.nearest < state.tile_low) continue;  // hidden in all of the tile
+    DrawTriangle(task, entry.triangle, state);
   }
 }
 
