@@ -10,59 +10,23 @@ namespace plumb::detail {
 namespace {
 
 // Triangles that a thread sets up at a time.
-constexpr std::size_t kChunk = 2048;
+constexpr std::size_t kChunk = 4096;
 
-struct TileEntry {
-  std::uint32_t tile;
-  std::uint32_t record;  // in its chunk
-};
-
-struct Chunk {
-  std::vector<TriangleSetup> records;
-  std::vector<TileEntry> entries;
-};
+// A triangle that may touch more tiles than this is in no list of a tile's own, which bounds their memory.
+constexpr int kMostTiles = 64;
 
 // Whether no pixel of the tile can be covered: an edge function is certainly negative in all of it. From
 // the tile's centre to a pixel's it grows by at most 15.5 (|a| + |b|).
-bool outside_tile(const TriangleSetup& record, int tile_x, int tile_y) {
+bool outside_tile(const ScreenTriangle& triangle, int column, int row) {
   constexpr double kHalf = 0.5 * (kTilePx - 1);
-  const double x = tile_x * kTilePx + kHalf;
-  const double y = tile_y * kTilePx + kHalf;
-  const auto negative = [&](const Plane& edge) {
-    const double centre = (edge.c + edge.a * x) + edge.b * y;
-    return centre + 1.0001 * kHalf * (std::fabs(edge.a) + std::fabs(edge.b)) + edge.error < 0.0;
-  };
-  return std::any_of(std::begin(record.edge), std::end(record.edge), negative);
-}
-
-void bin_record(const TriangleSetup& record, const TileGrid& grid, std::uint32_t index,
-                std::vector<TileEntry>& entries) {
-  const int column0 = record.x0 / kTilePx, column1 = record.x1 / kTilePx;
-  const int row0 = record.y0 / kTilePx, row1 = record.y1 / kTilePx;
-  const bool few = column1 - column0 <= 1 && row1 - row0 <= 1;  // the tile itself will find out
-  for (int row = row0; row <= row1; ++row) {
-    for (int column = column0; column <= column1; ++column) {
-      if (!few && outside_tile(record, column, row)) continue;
-      entries.push_back({static_cast<std::uint32_t>(row * grid.columns + column), index});
-    }
+  const double x = column * kTilePx + kHalf;
+  const double y = row * kTilePx + kHalf;
+  for (int i = 0; i < 3; ++i) {
+    const double centre = (triangle.c[i] + triangle.a[i] * x) + triangle.b[i] * y;
+    const double rise = 1.0001 * kHalf * (std::fabs(triangle.a[i]) + std::fabs(triangle.b[i]));
+    if (centre + rise + double{triangle.error[i]} < 0.0) return true;
   }
-}
-
-Chunk set_up_chunk(const Projection& projection, const glm::vec3& eye, const TileGrid& grid, MeshView mesh,
-                   std::size_t first, std::size_t last) {
-  Chunk chunk;
-  chunk.records.reserve(last - first);
-  for (std::size_t i = first; i < last; ++i) {
-    const glm::uvec3& corner = mesh.triangles[i];
-    const Triangle triangle{mesh.positions[corner.x], mesh.positions[corner.y], mesh.positions[corner.z]};
-    TriangleSetup records[2];
-    const int made = set_up_triangle(projection, eye, triangle, static_cast<std::uint32_t>(i), records);
-    for (int k = 0; k < made; ++k) {
-      bin_record(records[k], grid, static_cast<std::uint32_t>(chunk.records.size()), chunk.entries);
-      chunk.records.push_back(records[k]);
-    }
-  }
-  return chunk;
+  return false;
 }
 
 }  // namespace
@@ -70,33 +34,89 @@ Chunk set_up_chunk(const Projection& projection, const glm::vec3& eye, const Til
 TileGrid::TileGrid(int width, int height)
     : columns((width - 1) / kTilePx + 1), rows((height - 1) / kTilePx + 1) {}
 
-Bins::Bins(const Projection& projection, const glm::vec3& eye, const TileGrid& grid, MeshView mesh,
-           std::size_t first, std::size_t last, int threads) {
-  std::vector<Chunk> chunks((last - first + kChunk - 1) / kChunk);
-  parallel_for(chunks.size(), threads, [&](std::size_t i) {
-    const std::size_t begin = first + i * kChunk;
-    chunks[i] = set_up_chunk(projection, eye, grid, mesh, begin, std::min(begin + kChunk, last));
-  });
+Bins::Bins(const Projection& projection, const RasterKernels& kernels)
+    : projection_(projection), kernels_(kernels), grid_(projection.width, projection.height) {}
 
-  // Counting sort by tile; within one, in the mesh's order.
-  start_.assign(grid.size() + 1, 0);
-  std::size_t record_count = 0;
-  for (const Chunk& chunk : chunks) {
-    for (const TileEntry& entry : chunk.entries) ++start_[entry.tile + 1];
-    record_count += chunk.records.size();
+void Bins::add_to_chunk(Chunk& chunk, std::uint32_t index) const {
+  const ScreenTriangle& triangle = triangles_[index];
+  const int column0 = triangle.x0 / kTilePx, column1 = triangle.x1 / kTilePx;
+  const int row0 = triangle.y0 / kTilePx, row1 = triangle.y1 / kTilePx;
+  const int columns = column1 - column0 + 1, rows = row1 - row0 + 1;
+  const BinEntry entry{index, triangle.nearest};
+  if (columns > kMostTiles || rows > kMostTiles || columns * rows > kMostTiles) {
+    chunk.wide.push_back(entry);
+    return;
   }
-  for (std::size_t tile = 0; tile < grid.size(); ++tile) {
-    if (start_[tile + 1] != 0) touched_.push_back(static_cast<std::uint32_t>(tile));
-    start_[tile + 1] += start_[tile];
+  const bool few = columns <= 2 && rows <= 2;  // the tile itself will find out
+  for (int row = row0; row <= row1; ++row) {
+    for (int column = column0; column <= column1; ++column) {
+      if (!few && !triangle.side_open && outside_tile(triangle, column, row)) continue;
+      chunk.tile_of.push_back(static_cast<std::uint32_t>(row * grid_.columns + column));
+      chunk.unsorted.push_back(entry);
+    }
   }
-  entries_.resize(start_.back());
-  records_.reserve(record_count);
-  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-  for (const Chunk& chunk : chunks) {
-    const auto base = static_cast<std::uint32_t>(records_.size());
-    records_.insert(records_.end(), chunk.records.begin(), chunk.records.end());
-    for (const TileEntry& entry : chunk.entries) entries_[next[entry.tile]++] = base + entry.record;
+}
+
+// A counting sort by tile; within one, in the mesh's order.
+void Bins::sort_chunk(Chunk& chunk) const {
+  chunk.begin_tile = chunk.end_tile = 0;
+  chunk.entries.resize(chunk.unsorted.size());
+  if (chunk.tile_of.empty()) return;
+  const auto [least, greatest] = std::minmax_element(chunk.tile_of.begin(), chunk.tile_of.end());
+  chunk.begin_tile = *least;
+  chunk.end_tile = std::size_t{*greatest} + 1;
+  chunk.start.assign(chunk.end_tile - chunk.begin_tile + 1, 0);
+  for (const std::uint32_t tile : chunk.tile_of) ++chunk.start[tile - chunk.begin_tile];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& start : chunk.start) {
+    sum += start;
+    start = sum;
   }
+  // Each start is the end of its list, and moves down to its beginning.
+  for (std::size_t i = chunk.tile_of.size(); i-- > 0;)
+    chunk.entries[--chunk.start[chunk.tile_of[i] - chunk.begin_tile]] = chunk.unsorted[i];
+}
+
+void Bins::fill(MeshView mesh, std::size_t first, std::size_t last, int threads) {
+  if (triangles_ == nullptr || capacity_ < last - first) {
+    capacity_ = last - first;
+    triangles_ = std::make_unique_for_overwrite<ScreenTriangle[]>(capacity_);
+  }
+  chunks_.resize((last - first + kChunk - 1) / kChunk);
+  parallel_for(chunks_.size(), threads, [&](std::size_t i) {
+    Chunk& chunk = chunks_[i];
+    chunk.first = i * kChunk;
+    const std::size_t begin = first + chunk.first;
+    chunk.count = kernels_.set_up(projection_, mesh, begin, std::min(begin + kChunk, last),
+                                  triangles_.get() + chunk.first);
+    chunk.wide.clear();
+    chunk.tile_of.clear();
+    chunk.unsorted.clear();
+    for (std::size_t k = 0; k < chunk.count; ++k)
+      add_to_chunk(chunk, static_cast<std::uint32_t>(chunk.first + k));
+    sort_chunk(chunk);
+  });
+  wide_.clear();
+  begin_tile_ = grid_.size();
+  end_tile_ = 0;
+  for (const Chunk& chunk : chunks_) {
+    wide_.insert(wide_.end(), chunk.wide.begin(), chunk.wide.end());
+    if (chunk.begin_tile == chunk.end_tile) continue;
+    begin_tile_ = std::min(begin_tile_, chunk.begin_tile);
+    end_tile_ = std::max(end_tile_, chunk.end_tile);
+  }
+  if (!wide_.empty()) {
+    begin_tile_ = 0;
+    end_tile_ = grid_.size();
+  }
+}
+
+std::span<const BinEntry> Bins::list(std::size_t chunk_index, std::size_t tile) const {
+  const Chunk& chunk = chunks_[chunk_index];
+  if (tile < chunk.begin_tile || tile >= chunk.end_tile) return {};
+  const std::size_t begin = chunk.start[tile - chunk.begin_tile];
+  const std::size_t end = chunk.start[tile - chunk.begin_tile + 1];
+  return std::span<const BinEntry>(chunk.entries).subspan(begin, end - begin);
 }
 
 }  // namespace plumb::detail

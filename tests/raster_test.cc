@@ -207,6 +207,13 @@ TEST_SUITE("raster: answers") {
     }
   }
 
+  TEST_CASE("triangles so large that they touch most tiles of a frame of many") {
+    hard::Random random(7);
+    const TriangleMesh mesh = cloud(random, 20, 1.5f);
+    check_view(make_view("many tiles", mesh, wide_camera({0, 0.2f, 2.2f}, {0, 0, 0}, 413, 330)));
+    check_view(make_view("inside", mesh, wide_camera({0, 0.2f, 0.1f}, {1, 0, 0}, 413, 330)));
+  }
+
   TEST_CASE("scales at which float, or even the bounds, would leave their range") {
     hard::Random random(6);
     const TriangleMesh unit = cloud(random, 30, 0.7f);

@@ -24,6 +24,13 @@ HWY_INLINE std::uint32_t MaskBits(D d, hn::Mask<D> mask) {
   return bytes[0] | (std::uint32_t{bytes[1]} << 8);
 }
 
+// The inverse; bits beyond the lanes are ignored.
+template <class D>
+HWY_INLINE hn::Mask<D> MaskOfBits(D d, std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  return hn::LoadMaskBits(d, bytes);
+}
+
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

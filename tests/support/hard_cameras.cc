@@ -44,6 +44,8 @@ float scale(const TriangleMesh& mesh) {
 Camera looking(Random& random, glm::vec3 eye, glm::vec3 target, double fov) {
   const auto [width, height] = size(random);
   const glm::vec3 up = random.one_in(2) ? glm::vec3(0, 1, 0) : random.unit3();
+  constexpr float kMax = std::numeric_limits<float>::max();
+  for (int i = 0; i < 3; ++i) eye[i] = std::clamp(eye[i], -kMax, kMax);
   try {
     return Camera::look_at(eye, target, up, fov, width, height);
   } catch (const Error&) {

@@ -1,16 +1,19 @@
-// The tile kernel, compiled once per Highway target.
+// The kernels, compiled once per Highway target.
+
+#include "raster/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raster/tile.cc"
+#define HWY_TARGET_INCLUDE "raster/kernels.cc"
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
+#include "raster/setup-inl.h"
 #include "raster/tile_draw-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-DrawTile DrawTileKernel() { return &DrawTileRecords; }
+RasterKernels MakeRasterKernels() { return {&SetUpTriangles, &LoadTile, &DrawEntries, &StoreTile}; }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -20,9 +23,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace plumb::detail {
 
-HWY_EXPORT(DrawTileKernel);
+HWY_EXPORT(MakeRasterKernels);
 
-DrawTile draw_tile_kernel(Simd simd) { return PLUMB_DISPATCH(DrawTileKernel, simd)(); }
+RasterKernels raster_kernels(Simd simd) { return PLUMB_DISPATCH(MakeRasterKernels, simd)(); }
 
 }  // namespace plumb::detail
 #endif

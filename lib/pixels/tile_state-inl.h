@@ -1,0 +1,236 @@
+// A tile's pixels by the vector: taking them from the frame, their bounds, their exact answers, and giving
+// them back. Included once per Highway target.
+
+#if defined(PLUMB_PIXELS_TILE_STATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_PIXELS_TILE_STATE_INL_H_
+#undef PLUMB_PIXELS_TILE_STATE_INL_H_
+#else
+#define PLUMB_PIXELS_TILE_STATE_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "base/mask_bits-inl.h"
+#include "hwy/highway.h"
+#include "pixels/pixel_depth-inl.h"
+#include "pixels/tile_planes-inl.h"
+#include "pixels/tile_state.h"
+#include "plumb/frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+
+// The bounds of 1/t that pixels of known t have.
+//
+// With u = 2^-24: t is within u of the exact one, 1/t is rounded, and so is the product: 3 u. A triangle
+// whose own bounds (pixels/tile_planes-inl.h: 1.1 u to spare) lie beyond these, 4 u away, has another
+// exact t by more than 2 u of it, so it rounds beyond t. Where 1/t may leave the range in which that holds
+// nothing is certain.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void BoundsOf(D d, V t, V& low, V& high) {
+  const V infinity = hn::Set(d, kFloatInfinity);
+  const V least = hn::Set(d, TileState::kLeastInverse);
+  const V inverse = hn::Div(hn::Set(d, 1.0f), t);
+  const auto usable = hn::And(hn::Gt(inverse, least), hn::Lt(inverse, hn::Set(d, kGreatestInverse)));
+  low = hn::IfThenElse(usable, hn::Mul(inverse, hn::Set(d, 1.0f - 0x1p-22f)), hn::Neg(infinity));
+  const V beyond = hn::IfThenElse(hn::Eq(t, infinity), least, infinity);
+  high = hn::IfThenElse(usable, hn::Mul(inverse, hn::Set(d, 1.0f + 0x1p-22f)), beyond);
+}
+
+// Takes the bounds of a block's pixels from t where a bit is set; their winners must be known.
+HWY_INLINE void SetBounds(TileState& state, int block, std::uint32_t pixels) {
+  const hn::CappedTag<float, 16> d;
+  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
+    const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
+    const auto mask = MaskOfBits(d, pixels >> lane);
+    auto low = hn::Undefined(d);
+    auto high = hn::Undefined(d);
+    BoundsOf(d, hn::Load(d, state.t + offset), low, high);
+    hn::BlendedStore(low, mask, d, state.inverse_low + offset);
+    hn::BlendedStore(high, mask, d, state.inverse_high + offset);
+  }
+}
+
+// Takes a block's least bound anew.
+HWY_INLINE void UpdateBlock(TileState& state, int block) {
+  const hn::CappedTag<float, 16> d;
+  const float* low = state.inverse_low + block * kBlockPixels;
+  auto least = hn::Load(d, low);
+  for (size_t lane = hn::Lanes(d); lane < 16; lane += hn::Lanes(d))
+    least = hn::Min(least, hn::Load(d, low + lane));
+  state.block_low[block] = hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+// Takes the tile's least bound anew, from its blocks'.
+HWY_INLINE void UpdateTile(TileState& state) {
+  const hn::CappedTag<float, 16> d;
+  auto least = hn::Load(d, state.block_low);
+  for (size_t i = hn::Lanes(d); i < kTileBlocks * kTileBlocks; i += hn::Lanes(d))
+    least = hn::Min(least, hn::Load(d, state.block_low + i));
+  state.tile_low = hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+// Calls copy(pixel of the frame, offset in the tile, pixels) for each run of up to four pixels that the tile
+// has in the frame.
+template <class Copy>
+HWY_INLINE void ForEachRun(const TileTask& task, const Copy& copy) {
+  const int columns = std::min(kTilePx, task.camera.width - task.x);
+  const int rows = std::min(kTilePx, task.camera.height - task.y);
+  for (int y = 0; y < rows; ++y) {
+    const size_t row = static_cast<size_t>(task.y + y) * static_cast<size_t>(task.camera.width) +
+                       static_cast<size_t>(task.x);
+    for (int x = 0; x < columns; x += kBlockPx)
+      copy(row + static_cast<size_t>(x), tile_offset(x, y), std::min(kBlockPx, columns - x));
+  }
+}
+
+HWY_INLINE void CopyRun(void* to, const void* from, int pixels) {
+  if (HWY_LIKELY(pixels == kBlockPx)) {
+    std::memcpy(to, from, 4 * kBlockPx);  // a size that the compiler knows
+  } else {
+    std::memcpy(to, from, 4 * static_cast<size_t>(pixels));
+  }
+}
+
+// Starts a tile from the frame's pixels.
+inline void LoadTile(const TileTask& task, const Frame& frame, TileState& state) {
+  const bool whole = task.x + kTilePx <= task.camera.width && task.y + kTilePx <= task.camera.height;
+  if (!whole) {
+    std::fill(std::begin(state.t), std::end(state.t), -kFloatInfinity);
+    std::fill(std::begin(state.id), std::end(state.id), 0u);
+  }
+  ForEachRun(task, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
+    CopyRun(state.t + offset, frame.depth.data() + pixel, pixels);
+    CopyRun(state.id + offset, frame.id.data() + pixel, pixels);
+  });
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
+    const auto t = hn::Load(d, state.t + offset);
+    auto low = hn::Undefined(d);
+    auto high = hn::Undefined(d);
+    BoundsOf(d, t, low, high);
+    // Outside the frame: hidden from all.
+    const auto none = hn::Eq(t, hn::Set(d, -kFloatInfinity));
+    low = hn::IfThenElse(none, hn::Set(d, kFloatInfinity), low);
+    hn::Store(low, d, state.inverse_low + offset);
+    hn::Store(high, d, state.inverse_high + offset);
+    hn::Store(hn::Set(du, TileState::kEarlier), du, state.winner + offset);
+    hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
+  }
+  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block) UpdateBlock(state, block);
+  UpdateTile(state);
+}
+
+// What a depth is computed from, for each pixel of a block its own triangle.
+struct BlockQuotients {
+  alignas(64) double normal[3][kBlockPixels];
+  alignas(64) double t_num[kBlockPixels];
+  alignas(64) double t_num_relative[kBlockPixels];
+  alignas(64) double normal_error[kBlockPixels];
+
+  void set(int pixel, const ScreenTriangle& triangle) {
+    for (int i = 0; i < 3; ++i) normal[i][pixel] = triangle.normal[i];
+    t_num[pixel] = triangle.t_num;
+    t_num_relative[pixel] = triangle.t_num_relative;
+    normal_error[pixel] = triangle.normal_error;
+  }
+};
+
+// The t of a triangle (or, from BlockQuotients, of each pixel's own) at a block's pixels; a bit where it is
+// certain.
+template <class Source>
+HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Source& source, float* t) {
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> df;
+  const Camera& camera = task.camera;
+  // From the block's centre, 1.5 pixels in, and the pixel's half.
+  const auto base_x = hn::Set(d, task.x + tile_x(block * kBlockPixels) + 2.0);
+  const auto base_y = hn::Set(d, task.y + tile_y(block * kBlockPixels) + 2.0);
+  std::uint32_t bits = 0;
+  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
+    const auto field = [&](const auto& of_all) HWY_ATTR {
+      if constexpr (std::is_same_v<Source, BlockQuotients>) {
+        return hn::Load(d, of_all + lane);
+      } else {
+        return hn::Set(d, of_all);
+      }
+    };
+    const auto x = hn::Add(base_x, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_x + lane)));
+    const auto y = hn::Add(base_y, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_y + lane)));
+    const auto dx = DirectionComponent(d, x, y, camera.corner.x, camera.du.x, camera.dv.x);
+    const auto dy = DirectionComponent(d, x, y, camera.corner.y, camera.du.y, camera.dv.y);
+    const auto dz = DirectionComponent(d, x, y, camera.corner.z, camera.du.z, camera.dv.z);
+    const auto length = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
+    const auto den =
+        hn::MulAdd(field(source.normal[2]), dz,
+                   hn::MulAdd(field(source.normal[1]), dy, hn::Mul(field(source.normal[0]), dx)));
+    auto depth = hn::Undefined(df);
+    auto certain = hn::FirstN(df, 0);
+    QuotientDepth(d, den, field(source.t_num), field(source.t_num_relative),
+                  hn::Mul(length, field(source.normal_error)), depth, certain);
+    hn::Store(depth, df, t + lane);
+    bits |= MaskBits(df, certain) << lane;
+  }
+  return bits;
+}
+
+// Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
+inline void LearnBlock(const TileTask& task, TileState& state, int block, std::uint32_t pixels) {
+  const int first = block * kBlockPixels;
+  const hn::CappedTag<std::uint32_t, 16> d;
+  const std::uint32_t* winner = state.winner + first;
+  std::uint32_t unknown = 0;
+  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
+    const auto known = hn::Load(d, state.known + static_cast<size_t>(first) + lane);
+    unknown |= MaskBits(d, hn::Ne(hn::Load(d, winner + lane), known)) << lane;
+  }
+  unknown &= pixels;
+  if (unknown == 0) return;
+
+  const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
+  std::uint32_t same = 0;
+  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d))
+    same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
+  HWY_ALIGN float depth[kBlockPixels];
+  std::uint32_t certain = unknown;
+  if ((unknown & ~same) == 0) {
+    certain &= BlockDepths(task, block, task.triangles[sample], depth);
+  } else {
+    BlockQuotients quotients;
+    for (int i = 0; i < kBlockPixels; ++i)
+      quotients.set(i, task.triangles[(unknown >> i & 1) != 0 ? winner[i] : sample]);
+    certain &= BlockDepths(task, block, quotients, depth);
+  }
+  for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    const size_t offset = static_cast<size_t>(first) + i;
+    state.t[offset] = depth[i];
+    state.id[offset] = task.id_of(winner[i]);
+    state.known[offset] = winner[i];
+  }
+  for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1)
+    learn_pixel(task, state, first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
+}
+
+// Gives the frame what the tile won.
+inline void StoreTile(const TileTask& task, TileState& state, Frame& frame) {
+  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block) LearnBlock(task, state, block, 0xffffu);
+  ForEachRun(task, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
+    CopyRun(frame.depth.data() + pixel, state.t + offset, pixels);
+    CopyRun(frame.id.data() + pixel, state.id + offset, pixels);
+  });
+}
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

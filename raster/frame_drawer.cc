@@ -1,0 +1,99 @@
+#include "raster/frame_drawer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/fp_mode.h"
+#include "base/parallel.h"
+#include "base/simd_dispatch.h"
+#include "build/mesh_check.h"
+#include "frame/frame_check.h"
+#include "pixels/tile.h"
+#include "pixels/tile_state.h"
+
+namespace plumb::detail {
+namespace {
+
+const Camera& checked(const Camera& camera) {
+  check_camera(camera);
+  return camera;
+}
+
+const RasterOptions& checked(const RasterOptions& options) {
+  static_cast<void>(thread_count(options.threads));  // throws where negative
+  return options;
+}
+
+}  // namespace
+
+FrameDrawer::FrameDrawer(const Camera& camera, const RasterOptions& options)
+    : camera_(checked(camera)),
+      options_(checked(options)),
+      projection_(with_default_fp_mode([&] { return Projection(camera_); })),
+      kernels_(raster_kernels(resolve_simd(options.simd))),
+      bins_(projection_, kernels_) {}
+
+void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, Frame& frame) {
+  check_mesh(mesh, first_id, "rasterize");
+  const glm::vec3& eye = camera_.eye;
+  if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)))
+    return;  // no ray sees anything
+  with_default_fp_mode([&] {
+    if (!options_.progress) {
+      draw_batches(mesh, first_id, frame);
+      return;
+    }
+    // What can be cancelled, or whose callback may throw, must be able to take everything back.
+    Frame before = frame;
+    try {
+      draw_batches(mesh, first_id, frame);
+    } catch (...) {
+      frame = std::move(before);
+      throw;
+    }
+  });
+}
+
+void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, Frame& frame) {
+  const std::size_t count = mesh.triangles.size();
+  Progress progress(options_.progress, count);
+  for (std::size_t first = 0; first < count && !progress.cancelled(); first += Bins::kBatch) {
+    const std::size_t last = std::min(first + Bins::kBatch, count);
+    bins_.fill(mesh, first, last, options_.threads);
+    // The batch's share of the progress, spread over its tiles.
+    const std::size_t tiles =
+        bins_.end_tile() > bins_.begin_tile() ? bins_.end_tile() - bins_.begin_tile() : 0;
+    parallel_for(tiles, options_.threads, [&](std::size_t i) {
+      if (progress.cancelled()) return;
+      draw_tile(mesh, first_id, bins_.begin_tile() + i, frame);
+      progress.add((last - first) * (i + 1) / tiles - (last - first) * i / tiles);
+    });
+    if (tiles == 0) progress.add(last - first);
+  }
+  progress.throw_if_cancelled();
+}
+
+void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const {
+  const std::size_t columns = static_cast<std::size_t>(bins_.grid().columns);
+  const TileTask task{camera_,
+                      projection_.exact_only,
+                      mesh,
+                      first_id,
+                      bins_.triangles(),
+                      static_cast<int>(tile % columns) * kTilePx,
+                      static_cast<int>(tile / columns) * kTilePx};
+  TileState state;
+  bool loaded = false;
+  const auto draw = [&](std::span<const BinEntry> entries) {
+    if (entries.empty()) return;
+    if (!loaded) kernels_.load_tile(task, frame, state);
+    loaded = true;
+    kernels_.draw_tile(task, entries, state);
+  };
+  draw(bins_.wide());
+  for (std::size_t chunk = 0; chunk < bins_.chunks(); ++chunk) draw(bins_.list(chunk, tile));
+  if (loaded) kernels_.store_tile(task, state, frame);
+}
+
+}  // namespace plumb::detail

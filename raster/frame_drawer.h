@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+
+#include "plumb/camera.h"
+#include "plumb/frame.h"
+#include "plumb/mesh.h"
+#include "plumb/raster.h"
+#include "raster/bins.h"
+#include "raster/kernels.h"
+#include "raster/projection.h"
+
+namespace plumb::detail {
+
+/// Draws meshes into a frame as one camera sees them, batch by batch and tile by tile.
+class FrameDrawer {
+ public:
+  /// Throws plumb::Error for a camera without pixels or options that cannot be met.
+  FrameDrawer(const Camera& camera, const RasterOptions& options);
+  FrameDrawer(const FrameDrawer&) = delete;
+  FrameDrawer& operator=(const FrameDrawer&) = delete;
+
+  const Camera& camera() const { return camera_; }
+  const RasterOptions& options() const { return options_; }
+
+  /// Merges the mesh into the frame. Throws plumb::Error for a mesh that is at fault, Cancelled when the
+  /// progress callback says so, and whatever that throws; in each case the frame is as it was.
+  void draw(MeshView mesh, std::uint32_t first_id, Frame& frame);
+
+ private:
+  void draw_batches(MeshView mesh, std::uint32_t first_id, Frame& frame);
+  void draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const;
+
+  Camera camera_;
+  RasterOptions options_;
+  Projection projection_;
+  RasterKernels kernels_;
+  Bins bins_;
+};
+
+}  // namespace plumb::detail
