@@ -70,7 +70,7 @@ Scene open_file(const FrameOptions& options, int width, int height) {
 }  // namespace
 
 void add_frame_options(CLI::App& command, FrameOptions& options) {
-  command.add_option("SCENE", options.scene, "a mesh file (PLY, OBJ), or builtin:NAME[:SIZE]")
+  command.add_option("SCENE", options.scene, "a mesh file (PLY, OBJ, STL, OFF), or builtin:NAME[:SIZE]")
       ->capture_default_str();
   command.add_option("--size", options.size, "the frame in pixels")->type_name("WxH")->capture_default_str();
   command.add_option("--eye", options.eye, "where the camera is")->type_name("X,Y,Z");
