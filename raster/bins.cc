@@ -12,18 +12,21 @@ namespace {
 // Triangles that a thread sets up at a time.
 constexpr std::size_t kChunk = 4096;
 
-// A triangle that may touch more tiles than this is in no list of a tile's own, which bounds their memory.
-constexpr int kMostTiles = 64;
+// From one grid to the next the side grows by this.
+constexpr int kGrowth = 8;
 
-// Whether no pixel of the tile can be covered: an edge function is certainly negative in all of it. From
-// the tile's centre to a pixel's it grows by at most 15.5 (|a| + |b|).
-bool outside_tile(const ScreenTriangle& triangle, int column, int row) {
-  constexpr double kHalf = 0.5 * (kTilePx - 1);
-  const double x = column * kTilePx + kHalf;
-  const double y = row * kTilePx + kHalf;
+// A triangle that may touch more squares than this goes to the next coarser grid, if there is one.
+constexpr std::int64_t kMostSquares = kGrowth * kGrowth;
+
+// Whether no pixel of the square can be covered: an edge function is certainly negative in all of it.
+bool outside(const ScreenTriangle& triangle, int side_px, int column, int row) {
+  const double side = side_px;
+  const double half = 0.5 * (side - 1.0);
+  const double x = column * side + half;
+  const double y = row * side + half;
   for (int i = 0; i < 3; ++i) {
     const double centre = (triangle.c[i] + triangle.a[i] * x) + triangle.b[i] * y;
-    const double rise = 1.0001 * kHalf * (std::fabs(triangle.a[i]) + std::fabs(triangle.b[i]));
+    const double rise = 1.0001 * half * (std::fabs(triangle.a[i]) + std::fabs(triangle.b[i]));
     if (centre + rise + double{triangle.error[i]} < 0.0) return true;
   }
   return false;
@@ -31,92 +34,128 @@ bool outside_tile(const ScreenTriangle& triangle, int column, int row) {
 
 }  // namespace
 
-TileGrid::TileGrid(int width, int height)
-    : columns((width - 1) / kTilePx + 1), rows((height - 1) / kTilePx + 1) {}
+SquareGrid::SquareGrid(int width, int height, int side_px_in)
+    : side_px(side_px_in), columns((width - 1) / side_px + 1), rows((height - 1) / side_px + 1) {}
 
-Bins::Bins(const Projection& projection, const RasterKernels& kernels)
-    : projection_(projection), kernels_(kernels), grid_(projection.width, projection.height) {}
-
-void Bins::add_to_chunk(Chunk& chunk, std::uint32_t index) const {
-  const ScreenTriangle& triangle = triangles_[index];
-  const int column0 = triangle.x0 / kTilePx, column1 = triangle.x1 / kTilePx;
-  const int row0 = triangle.y0 / kTilePx, row1 = triangle.y1 / kTilePx;
-  const int columns = column1 - column0 + 1, rows = row1 - row0 + 1;
-  const BinEntry entry{index, triangle.nearest};
-  if (columns > kMostTiles || rows > kMostTiles || columns * rows > kMostTiles) {
-    chunk.wide.push_back(entry);
-    return;
-  }
-  const bool few = columns <= 2 && rows <= 2;  // the tile itself will find out
-  for (int row = row0; row <= row1; ++row) {
-    for (int column = column0; column <= column1; ++column) {
-      if (!few && !triangle.side_open && outside_tile(triangle, column, row)) continue;
-      chunk.tile_of.push_back(static_cast<std::uint32_t>(row * grid_.columns + column));
-      chunk.unsorted.push_back(entry);
-    }
-  }
+void SquareLists::clear() {
+  added_to_.clear();
+  added_.clear();
+  entries_.clear();
+  begin_ = end_ = 0;
 }
 
-// A counting sort by tile; within one, in the mesh's order.
-void Bins::sort_chunk(Chunk& chunk) const {
-  chunk.begin_tile = chunk.end_tile = 0;
-  chunk.entries.resize(chunk.unsorted.size());
-  if (chunk.tile_of.empty()) return;
-  const auto [least, greatest] = std::minmax_element(chunk.tile_of.begin(), chunk.tile_of.end());
-  chunk.begin_tile = *least;
-  chunk.end_tile = std::size_t{*greatest} + 1;
-  chunk.start.assign(chunk.end_tile - chunk.begin_tile + 1, 0);
-  for (const std::uint32_t tile : chunk.tile_of) ++chunk.start[tile - chunk.begin_tile];
+void SquareLists::add(std::uint32_t square, BinEntry entry) {
+  added_to_.push_back(square);
+  added_.push_back(entry);
+}
+
+// A counting sort.
+void SquareLists::sort() {
+  if (added_.empty()) return;
+  const auto [least, greatest] = std::minmax_element(added_to_.begin(), added_to_.end());
+  begin_ = *least;
+  end_ = *greatest + 1;
+  start_.assign(end_ - begin_ + 1, 0);
+  for (const std::uint32_t square : added_to_) ++start_[square - begin_];
   std::uint32_t sum = 0;
-  for (std::uint32_t& start : chunk.start) {
+  for (std::uint32_t& start : start_) {
     sum += start;
     start = sum;
   }
   // Each start is the end of its list, and moves down to its beginning.
-  for (std::size_t i = chunk.tile_of.size(); i-- > 0;)
-    chunk.entries[--chunk.start[chunk.tile_of[i] - chunk.begin_tile]] = chunk.unsorted[i];
+  entries_.resize(added_.size());
+  for (std::size_t i = added_.size(); i-- > 0;) entries_[--start_[added_to_[i] - begin_]] = added_[i];
+}
+
+std::span<const BinEntry> SquareLists::list(std::uint32_t square) const {
+  if (square < begin_ || square >= end_) return {};
+  const std::size_t first = start_[square - begin_];
+  return std::span<const BinEntry>(entries_).subspan(first, start_[square - begin_ + 1] - first);
+}
+
+Bins::Bins(const Projection& projection, const RasterKernels& kernels)
+    : projection_(projection),
+      kernels_(kernels),
+      grids_{SquareGrid(projection.width, projection.height, kTilePx),
+             SquareGrid(projection.width, projection.height, kTilePx * kGrowth),
+             SquareGrid(projection.width, projection.height, kTilePx * kGrowth * kGrowth)} {}
+
+void Bins::add_wide(std::uint32_t index, Lists& lists) const {
+  const ScreenTriangle& triangle = wide_[index];
+  for (std::size_t g = 0; g < kGrids; ++g) {
+    const SquareGrid& grid = grids_[g];
+    const int column0 = triangle.x0 / grid.side_px, column1 = triangle.x1 / grid.side_px;
+    const int row0 = triangle.y0 / grid.side_px, row1 = triangle.y1 / grid.side_px;
+    const std::int64_t squares = std::int64_t{column1 - column0 + 1} * (row1 - row0 + 1);
+    if (squares > kMostSquares && g + 1 < kGrids) continue;
+    // Of few tiles, each will find out by itself.
+    const bool ask = !triangle.side_open && (squares > 4 || g > 0);
+    for (int row = row0; row <= row1; ++row) {
+      for (int column = column0; column <= column1; ++column) {
+        if (ask && outside(triangle, grid.side_px, column, row)) continue;
+        lists[g].add(static_cast<std::uint32_t>(row * grid.columns + column),
+                     BinEntry(false, index, triangle.nearest));
+      }
+    }
+    return;
+  }
 }
 
 void Bins::fill(MeshView mesh, std::size_t first, std::size_t last, int threads) {
-  if (triangles_ == nullptr || capacity_ < last - first) {
+  if (capacity_ < last - first) {
     capacity_ = last - first;
-    triangles_ = std::make_unique_for_overwrite<ScreenTriangle[]>(capacity_);
+    placed_ = std::make_unique_for_overwrite<TileTriangle[]>(capacity_);
+    wide_ = std::make_unique_for_overwrite<ScreenTriangle[]>(capacity_);
   }
   chunks_.resize((last - first + kChunk - 1) / kChunk);
   parallel_for(chunks_.size(), threads, [&](std::size_t i) {
-    Chunk& chunk = chunks_[i];
-    chunk.first = i * kChunk;
-    const std::size_t begin = first + chunk.first;
-    chunk.count = kernels_.set_up(projection_, mesh, begin, std::min(begin + kChunk, last),
-                                  triangles_.get() + chunk.first);
-    chunk.wide.clear();
-    chunk.tile_of.clear();
-    chunk.unsorted.clear();
-    for (std::size_t k = 0; k < chunk.count; ++k)
-      add_to_chunk(chunk, static_cast<std::uint32_t>(chunk.first + k));
-    sort_chunk(chunk);
+    const std::size_t offset = i * kChunk;
+    const BinnedTriangles triangles{placed_.get() + offset, wide_.get() + offset};
+    const SetupCounts made = kernels_.set_up(projection_, mesh, first + offset,
+                                             std::min(first + offset + kChunk, last), triangles);
+    Lists& lists = chunks_[i];
+    for (SquareLists& squares : lists) squares.clear();
+    const auto base = static_cast<std::uint32_t>(offset);
+    for (std::uint32_t k = 0; k < made.wide; ++k) add_wide(base + k, lists);
+    for (std::uint32_t k = 0; k < made.placed; ++k) {
+      const TileTriangle& triangle = triangles.placed[k];
+      lists[0].add(triangle.tile, BinEntry(true, base + k, triangle.nearest));
+    }
+    for (SquareLists& squares : lists) squares.sort();
   });
-  wide_.clear();
-  begin_tile_ = grid_.size();
+  begin_tile_ = grids_[0].size();
   end_tile_ = 0;
-  for (const Chunk& chunk : chunks_) {
-    wide_.insert(wide_.end(), chunk.wide.begin(), chunk.wide.end());
-    if (chunk.begin_tile == chunk.end_tile) continue;
-    begin_tile_ = std::min(begin_tile_, chunk.begin_tile);
-    end_tile_ = std::max(end_tile_, chunk.end_tile);
-  }
-  if (!wide_.empty()) {
-    begin_tile_ = 0;
-    end_tile_ = grid_.size();
+  for (const Lists& lists : chunks_) {
+    for (std::size_t g = 0; g < kGrids; ++g) {
+      if (lists[g].begin() == lists[g].end()) continue;
+      // The tiles of the rows of squares that have any.
+      const int growth = grids_[g].side_px / kTilePx;
+      const auto row_of = [&](std::uint32_t square) {
+        return static_cast<int>(square) / grids_[g].columns * growth;
+      };
+      const std::size_t columns = static_cast<std::size_t>(grids_[0].columns);
+      const std::size_t begin =
+          g == 0 ? lists[g].begin() : static_cast<std::size_t>(row_of(lists[g].begin())) * columns;
+      const std::size_t end =
+          g == 0 ? lists[g].end() : static_cast<std::size_t>(row_of(lists[g].end() - 1) + growth) * columns;
+      begin_tile_ = std::min(begin_tile_, begin);
+      end_tile_ = std::min(std::max(end_tile_, end), grids_[0].size());
+    }
   }
 }
 
-std::span<const BinEntry> Bins::list(std::size_t chunk_index, std::size_t tile) const {
-  const Chunk& chunk = chunks_[chunk_index];
-  if (tile < chunk.begin_tile || tile >= chunk.end_tile) return {};
-  const std::size_t begin = chunk.start[tile - chunk.begin_tile];
-  const std::size_t end = chunk.start[tile - chunk.begin_tile + 1];
-  return std::span<const BinEntry>(chunk.entries).subspan(begin, end - begin);
+void Bins::list(std::size_t tile, std::vector<BinEntry>& entries) const {
+  const int column = static_cast<int>(tile % static_cast<std::size_t>(grids_[0].columns));
+  const int row = static_cast<int>(tile / static_cast<std::size_t>(grids_[0].columns));
+  entries.clear();
+  for (std::size_t g = kGrids; g-- > 0;) {
+    const int growth = grids_[g].side_px / kTilePx;
+    const auto square = static_cast<std::uint32_t>(row / growth * grids_[g].columns + column / growth);
+    for (const Lists& lists : chunks_) {
+      const std::span<const BinEntry> list = lists[g].list(square);
+      entries.insert(entries.end(), list.begin(), list.end());
+    }
+  }
 }
 
 }  // namespace plumb::detail

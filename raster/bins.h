@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -12,18 +13,43 @@
 
 namespace plumb::detail {
 
-/// The tiles of a frame, row by row.
-struct TileGrid {
-  int columns, rows;
+/// A frame cut into squares, row by row.
+struct SquareGrid {
+  int side_px, columns, rows;
 
-  TileGrid(int width, int height);
+  SquareGrid(int width, int height, int side_px);
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
+/// Lists of triangles, one for each square that has some.
+class SquareLists {
+ public:
+  void clear();
+  void add(std::uint32_t square, BinEntry entry);
+  /// Orders what was added by square; within one, in the order of adding.
+  void sort();
+
+  /// The squares with a list that is not empty lie from begin() to before end().
+  std::uint32_t begin() const { return begin_; }
+  std::uint32_t end() const { return end_; }
+  std::span<const BinEntry> list(std::uint32_t square) const;
+
+ private:
+  std::vector<std::uint32_t> added_to_;
+  std::vector<BinEntry> added_;
+  std::uint32_t begin_ = 0, end_ = 0;
+  std::vector<std::uint32_t> start_;
+  std::vector<BinEntry> entries_;
+};
+
 /// Triangles set up, and which tiles each may touch: filled batch by batch, its memory kept.
+///
+/// A triangle is listed with the squares of one of several grids that it may touch: tiles, or squares 8 or 64
+/// times as wide, the finest where they are few. That bounds the lists' memory, and a tile is seen by the
+/// lists of the squares that it lies in.
 class Bins {
  public:
-  /// Triangles of a batch: their records stay within some ten MiB.
+  /// Triangles of a batch.
   static constexpr std::size_t kBatch = std::size_t{1} << 16;
 
   Bins(const Projection& projection, const RasterKernels& kernels);
@@ -32,41 +58,28 @@ class Bins {
   /// `threads` threads. The result does not depend on how many.
   void fill(MeshView mesh, std::size_t first, std::size_t last, int threads);
 
-  const TileGrid& grid() const { return grid_; }
-  const ScreenTriangle* triangles() const { return triangles_.get(); }
+  BinnedTriangles triangles() const { return {placed_.get(), wide_.get()}; }
+  const SquareGrid& tiles() const { return grids_[0]; }
   /// The tiles that may be touched lie from this to before end_tile().
   std::size_t begin_tile() const { return begin_tile_; }
   std::size_t end_tile() const { return end_tile_; }
-
-  /// Triangles that touch many tiles: in every tile's list.
-  const std::vector<BinEntry>& wide() const { return wide_; }
-  std::size_t chunks() const { return chunks_.size(); }
-  /// Those of one chunk that may touch the tile.
-  std::span<const BinEntry> list(std::size_t chunk, std::size_t tile) const;
+  /// Replaces `entries` by the triangles that may touch the tile, wide ones first.
+  void list(std::size_t tile, std::vector<BinEntry>& entries) const;
 
  private:
-  // A part of the batch, set up by one thread: its triangles, and per tile from begin_tile on a list of them.
-  struct Chunk {
-    std::size_t first, count;  // in triangles_
-    std::size_t begin_tile, end_tile;
-    std::vector<std::uint32_t> start;
-    std::vector<BinEntry> entries;
-    std::vector<BinEntry> wide;
-    std::vector<std::uint32_t> tile_of;  // while sorting
-    std::vector<BinEntry> unsorted;
-  };
+  static constexpr int kGrids = 3;
+  using Lists = std::array<SquareLists, kGrids>;  // of the part of a batch that one thread sets up
 
-  void add_to_chunk(Chunk& chunk, std::uint32_t index) const;
-  void sort_chunk(Chunk& chunk) const;
+  void add_wide(std::uint32_t index, Lists& lists) const;
 
   const Projection& projection_;
   const RasterKernels& kernels_;
-  TileGrid grid_;
-  std::unique_ptr<ScreenTriangle[]> triangles_;
+  std::array<SquareGrid, kGrids> grids_;
+  std::unique_ptr<TileTriangle[]> placed_;
+  std::unique_ptr<ScreenTriangle[]> wide_;
   std::size_t capacity_ = 0;
   std::size_t begin_tile_ = 0, end_tile_ = 0;
-  std::vector<Chunk> chunks_;
-  std::vector<BinEntry> wide_;
+  std::vector<Lists> chunks_;
 };
 
 }  // namespace plumb::detail

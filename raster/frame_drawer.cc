@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "base/fp_mode.h"
 #include "base/parallel.h"
@@ -75,25 +76,17 @@ void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, Frame& fra
 }
 
 void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const {
-  const std::size_t columns = static_cast<std::size_t>(bins_.grid().columns);
+  std::vector<BinEntry> entries;
+  bins_.list(tile, entries);
+  if (entries.empty()) return;
+  const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
   const TileTask task{camera_,
                       projection_.exact_only,
                       mesh,
                       first_id,
-                      bins_.triangles(),
                       static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
-  TileState state;
-  bool loaded = false;
-  const auto draw = [&](std::span<const BinEntry> entries) {
-    if (entries.empty()) return;
-    if (!loaded) kernels_.load_tile(task, frame, state);
-    loaded = true;
-    kernels_.draw_tile(task, entries, state);
-  };
-  draw(bins_.wide());
-  for (std::size_t chunk = 0; chunk < bins_.chunks(); ++chunk) draw(bins_.list(chunk, tile));
-  if (loaded) kernels_.store_tile(task, state, frame);
+  kernels_.draw_tile(task, bins_.triangles(), entries, frame);
 }
 
 }  // namespace plumb::detail

@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-RasterKernels MakeRasterKernels() { return {&SetUpTriangles, &LoadTile, &DrawEntries, &StoreTile}; }
+RasterKernels MakeRasterKernels() { return {&SetUpTriangles, &DrawTile}; }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -16,7 +16,9 @@
 #include "base/round-inl.h"
 #include "hwy/highway.h"
 #include "pixels/screen_triangle.h"
+#include "pixels/tile_planes-inl.h"
 #include "raster/candidates-inl.h"
+#include "raster/kernels.h"
 #include "raster/projection.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,8 +33,10 @@ struct SetupLanes {
   alignas(64) double turn[8];
 
   alignas(64) double a[4][8], b[4][8], c[4][8];
-  alignas(64) double normal[3][8], t_num[8], t_num_relative[8], normal_error[8];
   alignas(64) float error[4][8];
+
+  // The same about the tile of the upper left pixel of its box.
+  alignas(64) float tile_a[4][8], tile_b[4][8], tile_c[4][8], tile_error[4][8];
 };
 
 // n.D over the frame times `scale` is the plane; `error` is its bound before scaling.
@@ -82,9 +86,8 @@ HWY_INLINE void SetUpEdge(const Projection& view, int edge, SetupLanes& lanes) {
   StorePlane(view, edge, nx, ny, nz, error, hn::Div(hn::Load(d, lanes.turn), unit), lanes);
 }
 
-// The depth's plane and what the depth itself is computed from. Two words of bits: triangles whose
-// side is open, and those of which no pixel sees anything, two vertices being equal (one edge function is
-// exactly zero then, and its displaced sign too).
+// The depth's plane. Two words of bits: triangles whose side is open, and those of which no pixel sees
+// anything, two vertices being equal (one edge function is exactly zero then, and its displaced sign too).
 //
 // The values and bounds of T = N.a and den = N.d are those of exact/intersect.cc's double stage: they
 // hold with and without fused operations. 1/t = den / T as a plane: 4 u for N, 3 u for the dot product, 2 u
@@ -117,12 +120,6 @@ HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const floa
   const SetupVector t_error = hn::Mul(hn::Mul(reach, extent2), hn::Set(d, 8.2 * kSetupU));
   const SetupVector inverse = hn::Div(hn::Set(d, 1.0), t_num);
   const SetupVector relative = hn::Mul(t_error, hn::Abs(inverse));
-  hn::Store(nx, d, lanes.normal[0]);
-  hn::Store(ny, d, lanes.normal[1]);
-  hn::Store(nz, d, lanes.normal[2]);
-  hn::Store(t_num, d, lanes.t_num);
-  hn::Store(hn::Mul(relative, hn::Set(d, 1.0001)), d, lanes.t_num_relative);
-  hn::Store(hn::Mul(extent2, hn::Set(d, 7.2 * kSetupU)), d, lanes.normal_error);
 
   // Seen in front, t = T / den > 0: the edge functions have den's sign, which is T's.
   const auto sided = hn::Lt(relative, hn::Set(d, 0x1p-10));
@@ -180,46 +177,81 @@ HWY_INLINE void LoadCorners(const Projection& view, const float* const corner[9]
   }
 }
 
-HWY_INLINE void StoreTriangle(const SetupLanes& lanes, size_t lane, const SetupCandidates& from, size_t i,
-                              bool side_open, ScreenTriangle& to) {
+// Places the planes about the tiles of the boxes' first pixels.
+HWY_INLINE void PlaceLanes(const SetupCandidates& from, size_t first, SetupLanes& lanes) {
+  const SetupTag d;
+  const hn::Rebind<float, SetupTag> df;
+  const hn::Rebind<std::int32_t, SetupTag> di;
+  static_assert(kTilePx == 32);
+  const auto centre_of = [&](const std::int32_t* side) HWY_ATTR {
+    const auto begin = hn::ShiftLeft<5>(hn::ShiftRight<5>(hn::LoadU(di, side + first)));
+    return hn::Add(hn::PromoteTo(d, begin), hn::Set(d, 0.5 * (kTilePx - 1)));
+  };
+  const SetupVector x = centre_of(from.x0), y = centre_of(from.y0);
+  for (int k = 0; k < 4; ++k) {
+    const SetupVector a = hn::Load(d, lanes.a[k]), b = hn::Load(d, lanes.b[k]);
+    auto centre = hn::Undefined(df), error = hn::Undefined(df);
+    PlacePlane(d, a, b, hn::Load(d, lanes.c[k]), hn::PromoteTo(d, hn::Load(df, lanes.error[k])), x, y,
+               hn::Set(d, kPlaneRelative[k]), hn::Set(d, kPlaneLimit[k]), centre, error);
+    hn::Store(RoundToFloat(df, a), df, lanes.tile_a[k]);
+    hn::Store(RoundToFloat(df, b), df, lanes.tile_b[k]);
+    hn::Store(centre, df, lanes.tile_c[k]);
+    hn::Store(error, df, lanes.tile_error[k]);
+  }
+}
+
+HWY_INLINE void StorePlaced(const SetupLanes& lanes, size_t lane, const SetupCandidates& from, size_t i,
+                            int tile_columns, TileTriangle& to) {
+  for (int k = 0; k < 4; ++k) {
+    to.a[k] = lanes.tile_a[k][lane];
+    to.b[k] = lanes.tile_b[k][lane];
+    to.c[k] = lanes.tile_c[k][lane];
+    to.error[k] = lanes.tile_error[k][lane];
+  }
+  to.nearest = from.nearest[i];
+  to.index = from.index[i];
+  to.x0 = static_cast<std::uint8_t>(from.x0[i] % kTilePx);
+  to.y0 = static_cast<std::uint8_t>(from.y0[i] % kTilePx);
+  to.x1 = static_cast<std::uint8_t>(from.x1[i] % kTilePx);
+  to.y1 = static_cast<std::uint8_t>(from.y1[i] % kTilePx);
+  to.tile = static_cast<std::uint32_t>(from.y0[i] / kTilePx * tile_columns + from.x0[i] / kTilePx);
+}
+
+HWY_INLINE void StoreBox(const SetupCandidates& from, size_t i, ScreenTriangle& to) {
+  to.nearest = from.nearest[i];
+  to.index = from.index[i];
+  to.x0 = from.x0[i];
+  to.y0 = from.y0[i];
+  to.x1 = from.x1[i];
+  to.y1 = from.y1[i];
+}
+
+HWY_INLINE void StoreWide(const SetupLanes& lanes, size_t lane, const SetupCandidates& from, size_t i,
+                          bool side_open, ScreenTriangle& to) {
   for (int k = 0; k < 4; ++k) {
     to.a[k] = lanes.a[k][lane];
     to.b[k] = lanes.b[k][lane];
     to.c[k] = lanes.c[k][lane];
     to.error[k] = lanes.error[k][lane];
   }
-  for (int k = 0; k < 3; ++k) to.normal[k] = lanes.normal[k][lane];
-  to.t_num = lanes.t_num[lane];
-  to.t_num_relative = lanes.t_num_relative[lane];
-  to.normal_error = lanes.normal_error[lane];
-  to.nearest = from.nearest[i];
-  to.x0 = from.x0[i];
-  to.y0 = from.y0[i];
-  to.x1 = from.x1[i];
-  to.y1 = from.y1[i];
-  to.index = from.index[i];
+  StoreBox(from, i, to);
   to.side_open = side_open;
 }
 
 // Nothing is known but the box: every pixel in it is decided exactly.
-inline void SetUpExactly(const SetupCandidates& from, size_t i, ScreenTriangle& to) {
-  to = ScreenTriangle{};
-  std::fill(std::begin(to.error), std::end(to.error), std::numeric_limits<float>::infinity());
-  to.nearest = from.nearest[i];
-  to.x0 = from.x0[i];
-  to.y0 = from.y0[i];
-  to.x1 = from.x1[i];
-  to.y1 = from.y1[i];
-  to.index = from.index[i];
+inline void SetUpExactly(const SetupCandidates& from, const BinnedTriangles& to, SetupCounts& made) {
+  for (size_t i = 0; i < from.count; ++i) {
+    ScreenTriangle& triangle = to.wide[made.wide++];
+    triangle = ScreenTriangle{};
+    std::fill(std::begin(triangle.error), std::end(triangle.error), std::numeric_limits<float>::infinity());
+    StoreBox(from, i, triangle);
+  }
 }
 
-// Sets up the candidates; returns how many triangles that made.
-inline size_t SetUpCandidates(const Projection& view, const SetupCandidates& from, ScreenTriangle* to) {
-  size_t made = 0;
-  if (view.exact_only) {
-    for (; made < from.count; ++made) SetUpExactly(from, made, to[made]);
-    return made;
-  }
+// Sets up the candidates, after those already made.
+inline void SetUpCandidates(const Projection& view, const SetupCandidates& from, const BinnedTriangles& to,
+                            SetupCounts& made) {
+  const int tile_columns = (view.width - 1) / kTilePx + 1;
   const size_t width = hn::Lanes(SetupTag());
   SetupLanes lanes;
   for (size_t first = 0; first < from.count; first += width) {
@@ -230,24 +262,33 @@ inline size_t SetUpCandidates(const Projection& view, const SetupCandidates& fro
     SetUpDepth(view, lanes, corner, side_open, flat);
     for (int edge = 0; edge < 3; ++edge) SetUpEdge(view, edge, lanes);
     const std::uint32_t uncovered = Uncovered(lanes, from, first) & ~side_open;
-    const std::uint32_t rest = from.count - first < width ? (1u << (from.count - first)) - 1 : 0xffu;
-    for (std::uint32_t bits = rest & ~(flat | uncovered) & ((1u << width) - 1); bits != 0; bits &= bits - 1) {
+    PlaceLanes(from, first, lanes);
+    const std::uint32_t all = (1u << std::min(width, from.count - first)) - 1;
+    for (std::uint32_t bits = all & ~(flat | uncovered); bits != 0; bits &= bits - 1) {
       const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      StoreTriangle(lanes, lane, from, first + lane, (side_open >> lane & 1) != 0, to[made++]);
+      const size_t i = first + lane;
+      const bool open = (side_open >> lane & 1) != 0;
+      const bool one_tile = ((from.x0[i] ^ from.x1[i]) | (from.y0[i] ^ from.y1[i])) < kTilePx;
+      if (one_tile && !open) {
+        StorePlaced(lanes, lane, from, i, tile_columns, to.placed[made.placed++]);
+      } else {
+        StoreWide(lanes, lane, from, i, open, to.wide[made.wide++]);
+      }
     }
   }
-  return made;
 }
 
-// Sets up the mesh's triangles from `first` to before `last`; returns how many may be seen and fills as
-// many of `to`, which has room for all.
-inline size_t SetUpTriangles(const Projection& view, MeshView mesh, size_t first, size_t last,
-                             ScreenTriangle* to) {
+inline SetupCounts SetUpTriangles(const Projection& view, MeshView mesh, size_t first, size_t last,
+                                  const BinnedTriangles& to) {
   SetupCandidates candidates;
-  size_t made = 0;
+  SetupCounts made{0, 0};
   for (size_t i = first; i < last; i += kSetupGroup) {
     FindCandidates(view, mesh, i, std::min(i + kSetupGroup, last), candidates);
-    made += SetUpCandidates(view, candidates, to + made);
+    if (view.exact_only) {
+      SetUpExactly(candidates, to, made);
+    } else {
+      SetUpCandidates(view, candidates, to, made);
+    }
   }
   return made;
 }

@@ -16,6 +16,7 @@
 #include <span>
 
 #include "base/mask_bits-inl.h"
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "pixels/tile_planes-inl.h"
 #include "pixels/tile_state-inl.h"
@@ -32,8 +33,8 @@ inline void DecideDepths(const TileTask& task, TileState& state, int block, std:
   const int first = block * kBlockPixels;
   LearnBlock(task, state, block, pixels);
   HWY_ALIGN float t[kBlockPixels];
-  const std::uint32_t certain = BlockDepths(task, block, task.triangles[triangle], t);
-  const std::uint32_t id = task.id_of(triangle);
+  const std::uint32_t certain = BlockDepthsOf(task, block, triangle, t);
+  const std::uint32_t id = task.first_id + triangle;
   for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
     const int offset = first + i;
@@ -61,119 +62,150 @@ inline void DecidePixels(const TileTask& task, TileState& state, int block, std:
 
 // Draws the triangle into a block; with `kFull` it certainly covers every pixel.
 template <bool kFull>
-HWY_INLINE void DrawBlock(const TileTask& task, const TilePlanes& planes, std::uint32_t triangle, int block,
+HWY_INLINE void DrawBlock(const TileTask& task, const TileTriangle& triangle, bool side_open, int block,
                           TileState& state) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   HWY_ALIGN float centre[4];  // the planes at the block's centre
   const hn::CappedTag<float, 4> d4;
   for (size_t i = 0; i < 4; i += hn::Lanes(d4)) {
-    const auto row = hn::MulAdd(hn::Load(d4, planes.b + i), hn::Set(d4, kCentres.block_y[block]),
-                                hn::Load(d4, planes.c + i));
-    hn::Store(hn::MulAdd(hn::Load(d4, planes.a + i), hn::Set(d4, kCentres.block_x[block]), row), d4,
+    const auto row = hn::MulAdd(hn::Load(d4, triangle.b + i), hn::Set(d4, kCentres.block_y[block]),
+                                hn::Load(d4, triangle.c + i));
+    hn::Store(hn::MulAdd(hn::Load(d4, triangle.a + i), hn::Set(d4, kCentres.block_x[block]), row), d4,
               centre + i);
   }
+  const auto block_low = hn::Set(d, state.block_low[block]);
   std::uint32_t won_bits = 0, depth_open = 0, edge_open = 0;
+  bool farthest_stays = false;
   for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
     const auto px = hn::Load(d, kCentres.pixel_x + lane);
     const auto py = hn::Load(d, kCentres.pixel_y + lane);
     const auto value = [&](int i) HWY_ATTR {
-      return hn::MulAdd(hn::Set(d, planes.a[i]), px,
-                        hn::MulAdd(hn::Set(d, planes.b[i]), py, hn::Set(d, centre[i])));
+      return hn::MulAdd(hn::Set(d, triangle.a[i]), px,
+                        hn::MulAdd(hn::Set(d, triangle.b[i]), py, hn::Set(d, centre[i])));
     };
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
-    const auto error = hn::Set(d, planes.error[3]);
+    const auto error = hn::Set(d, triangle.error[3]);
     const auto inverse = value(3);
     const auto low = hn::Sub(inverse, error);
     const auto high = hn::Add(inverse, error);
-    auto closed = hn::Lt(high, hn::Load(d, state.inverse_low + offset));
+    const auto old_low = hn::Load(d, state.inverse_low + offset);
+    auto closed = hn::Lt(high, old_low);
     auto covered = hn::Not(closed);
     if constexpr (!kFull) {
       for (int i = 0; i < 3; ++i) {
         const auto edge = value(i);
-        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -planes.error[i])));
-        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, planes.error[i])));
+        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
+        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
       }
     }
     const auto won = hn::And(covered, hn::Gt(low, hn::Load(d, state.inverse_high + offset)));
     hn::BlendedStore(low, won, d, state.inverse_low + offset);
     hn::BlendedStore(high, won, d, state.inverse_high + offset);
-    hn::BlendedStore(hn::Set(du, triangle), hn::RebindMask(du, won), du, state.winner + offset);
+    hn::BlendedStore(hn::Set(du, triangle.index), hn::RebindMask(du, won), du, state.winner + offset);
     won_bits |= MaskBits(d, won) << lane;
     depth_open |= MaskBits(d, hn::AndNot(won, covered)) << lane;
     if constexpr (!kFull) edge_open |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
+    farthest_stays |= !hn::AllFalse(d, hn::AndNot(won, hn::Le(old_low, block_low)));
   }
-  if ((won_bits | depth_open | edge_open) == 0) return;
   if (HWY_UNLIKELY((depth_open | edge_open) != 0)) {
-    if (task.triangles[triangle].side_open) {
+    if (side_open) {
       edge_open |= depth_open;
       depth_open = 0;
     }
-    if (depth_open != 0) DecideDepths(task, state, block, triangle, depth_open);
-    if (edge_open != 0) DecidePixels(task, state, block, triangle, edge_open);
+    if (depth_open != 0) DecideDepths(task, state, block, triangle.index, depth_open);
+    if (edge_open != 0) DecidePixels(task, state, block, triangle.index, edge_open);
+  } else if (farthest_stays) {
+    return;
   }
-  UpdateBlock(state, block);
+  if ((won_bits | depth_open | edge_open) != 0) UpdateBlock(state, block);
 }
 
-// The blocks that hold pixels of the triangle's box, one bit each.
-HWY_INLINE std::uint64_t BoxBlocks(const TileTask& task, const ScreenTriangle& triangle, int& row0,
-                                   int& row1) {
-  const int column0 = (std::max(triangle.x0, task.x) - task.x) / kBlockPx;
-  const int column1 = (std::min(triangle.x1, task.x + kTilePx - 1) - task.x) / kBlockPx;
-  row0 = (std::max(triangle.y0, task.y) - task.y) / kBlockPx;
-  row1 = (std::min(triangle.y1, task.y + kTilePx - 1) - task.y) / kBlockPx;
-  const std::uint64_t columns = (2u << column1) - (1u << column0);
-  const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - row1))) & (~std::uint64_t{0} << (8 * row0));
+// The blocks of a tile that hold pixels of the triangle's box, one bit each.
+HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
+  const std::uint64_t columns = (2u << triangle.x1 / kBlockPx) - (1u << triangle.x0 / kBlockPx);
+  const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - triangle.y1 / kBlockPx))) &
+                             (~std::uint64_t{0} << (8 * (triangle.y0 / kBlockPx)));
   return columns * 0x0101010101010101u & rows;
 }
 
-HWY_INLINE void DrawPlaced(const TileTask& task, const TilePlanes& planes, std::uint32_t index,
+HWY_INLINE void DrawPlaced(const TileTask& task, const TileTriangle& triangle, bool side_open,
                            TileState& state) {
   const hn::CappedTag<float, 16> d;
-  int row0 = 0, row1 = 0;
-  const std::uint64_t box = BoxBlocks(task, task.triangles[index], row0, row1);
+  const std::uint64_t box = BoxBlocks(triangle);
   const size_t lanes = hn::Lanes(d);
-  const size_t end = 8 * static_cast<size_t>(row1 + 1);
-  bool drawn = false;
-  for (size_t first = 8 * static_cast<size_t>(row0) / lanes * lanes; first < end; first += lanes) {
-    auto open = hn::FirstN(d, 0);
-    auto full = hn::FirstN(d, 0);
-    TestBlocks(d, planes, first, state.block_low, open, full);
+  const size_t begin = triangle.y0 / kBlockPx * size_t{kTileBlocks} / lanes * lanes;
+  const size_t end = (triangle.y1 / kBlockPx + 1) * size_t{kTileBlocks};
+  HWY_ALIGN float grow[4];
+  Grow(triangle, 1.5f, grow);
+  for (size_t first = begin; first < end; first += lanes) {
+    auto open = hn::FirstN(d, 0), full = hn::FirstN(d, 0);
+    TestBlocks(d, triangle, grow, first, state.block_low, open, full);
     const std::uint32_t full_bits = MaskBits(d, full);
     for (std::uint32_t bits = MaskBits(d, open) & static_cast<std::uint32_t>(box >> first); bits != 0;
          bits &= bits - 1) {
       const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const int block = static_cast<int>(first + i);
       if ((full_bits >> i & 1) != 0) {
-        DrawBlock<true>(task, planes, index, block, state);
+        DrawBlock<true>(task, triangle, side_open, block, state);
       } else {
-        DrawBlock<false>(task, planes, index, block, state);
+        DrawBlock<false>(task, triangle, side_open, block, state);
       }
-      drawn = true;
     }
   }
-  if (drawn) UpdateTile(state);
 }
 
-HWY_INLINE void DrawTriangle(const TileTask& task, std::uint32_t index, TileState& state) {
-  const ScreenTriangle& triangle = task.triangles[index];
+// A triangle of a box of few blocks.
+HWY_INLINE void DrawSmall(const TileTask& task, const TileTriangle& triangle, TileState& state) {
+  const int x1 = triangle.x1 / kBlockPx, y1 = triangle.y1 / kBlockPx;
+  for (int y = triangle.y0 / kBlockPx; y <= y1; ++y) {
+    for (int x = triangle.x0 / kBlockPx; x <= x1; ++x)
+      DrawBlock<false>(task, triangle, false, y * kTileBlocks + x, state);
+  }
+}
+
+HWY_INLINE void DrawWide(const TileTask& task, const ScreenTriangle& triangle, TileState& state) {
   if (triangle.x0 >= task.x + kTilePx || triangle.x1 < task.x || triangle.y0 >= task.y + kTilePx ||
       triangle.y1 < task.y)
     return;
-  TilePlanes planes;
-  const bool met = PlacePlanes(triangle, task.x, task.y, planes);
-  if (met) DrawPlaced(task, planes, index, state);
-  if (HWY_UNLIKELY(triangle.side_open)) {
-    TurnEdges(planes);
-    DrawPlaced(task, planes, index, state);
-  }
+  TileTriangle placed;
+  PlaceTriangle(triangle, task.x, task.y, placed);
+  if (!OutsideTile(placed)) DrawPlaced(task, placed, triangle.side_open, state);
+  if (HWY_LIKELY(!triangle.side_open)) return;
+  TurnEdges(placed);
+  DrawPlaced(task, placed, true, state);
 }
 
-inline void DrawEntries(const TileTask& task, std::span<const BinEntry> entries, TileState& state) {
-  for (const BinEntry& entry : entries) {
+inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
+                     std::span<const BinEntry> entries, Frame& frame) {
+  constexpr size_t kAhead = 8;
+  const auto prefetch = [&](const BinEntry& entry) HWY_ATTR {
+    const auto* next = entry.placed() ? reinterpret_cast<const char*>(triangles.placed + entry.index())
+                                      : reinterpret_cast<const char*>(triangles.wide + entry.index());
+    hwy::Prefetch(next);
+    hwy::Prefetch(next + 64);
+  };
+  for (size_t i = 0; i < std::min(kAhead, entries.size()); ++i) prefetch(entries[i]);
+  TileState state;
+  LoadTile(task, frame, state);
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (i + kAhead < entries.size()) prefetch(entries[i + kAhead]);
+    const BinEntry entry = entries[i];
+    if (i % 16 == 0) UpdateTile(state);
     if (entry.nearest < state.tile_low) continue;  // hidden in all of the tile
-    DrawTriangle(task, entry.triangle, state);
+    if (!entry.placed()) {
+      DrawWide(task, triangles.wide[entry.index()], state);
+      continue;
+    }
+    const TileTriangle& triangle = triangles.placed[entry.index()];
+    if (triangle.x1 / kBlockPx - triangle.x0 / kBlockPx < 2 &&
+        triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
+      DrawSmall(task, triangle, state);
+    } else {
+      DrawPlaced(task, triangle, false, state);
+    }
   }
+  StoreTile(task, state, frame);
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

@@ -28,26 +28,50 @@ HWY_INLINE V DirectionComponent(D d, V column, V row, double corner, double du, 
   return hn::PromoteTo(d, RoundToFloat(df, sum));
 }
 
-// RN32(t_num / (normal.d)) for the pixels' float directions d, where that is certain, finite and above 0.
+// RN32(t) of one pixel's ray and one triangle a lane, where that is certain, finite and above 0. `corner`
+// gives the nine coordinates, `dx`, `dy`, `dz` are the float directions.
 //
-// With u = 2^-53, the denominator is off by normal_error |d|_1 (the dot product's own rounding included) and
-// t_num by t_num_relative of itself, so the quotient by the sum of these two relative errors, up
-// to second order, and by 3 u for the reciprocal, the product and the sum that gives an end of the interval.
-// Rounding is monotonic: where both ends round to the same float, so does everything between. NaN compares
-// as not equal.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void QuotientDepth(D d, V den, V t_num, V t_num_relative, V den_error,
-                              hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
+// t = T / den with T = N.a, den = N.d, N = e1 x e2 and bounds as in exact/intersect.cc's double stage, whose
+// values these are: with u = 2^-53, |error of T| <= 8.01 u R L^2, |error of den| <= 7.01 u D L^2, fused or
+// not. The quotient is off by (T's error + |t| den's error) / |den|, up to second order (1 % where
+// both errors are small, which is asked), and by 3 u for the reciprocal, the product and the sum that gives
+// an end of the interval. Rounding is monotonic: where both ends round to the same float, so does everything
+// between. NaN compares as not equal.
+template <class D, class Corner, class V = hn::Vec<D>>
+HWY_INLINE void TriangleDepths(D d, const glm::vec3& eye, const Corner& corner, V dx, V dy, V dz,
+                               hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
   const hn::Rebind<float, D> df;
+  const V v0x = corner(0), v0y = corner(1), v0z = corner(2);
+  const V ax = hn::Sub(v0x, hn::Set(d, double{eye.x}));
+  const V ay = hn::Sub(v0y, hn::Set(d, double{eye.y}));
+  const V az = hn::Sub(v0z, hn::Set(d, double{eye.z}));
+  const V e1x = hn::Sub(corner(3), v0x), e1y = hn::Sub(corner(4), v0y), e1z = hn::Sub(corner(5), v0z);
+  const V e2x = hn::Sub(corner(6), v0x), e2y = hn::Sub(corner(7), v0y), e2z = hn::Sub(corner(8), v0z);
+  const V nx = hn::MulSub(e1y, e2z, hn::Mul(e1z, e2y));
+  const V ny = hn::MulSub(e1z, e2x, hn::Mul(e1x, e2z));
+  const V nz = hn::MulSub(e1x, e2y, hn::Mul(e1y, e2x));
+  const V t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
+  const V den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
+
+  const auto norm1 = [](V x, V y, V z)
+                         HWY_ATTR { return hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)); };
+  const V extent = hn::Max(norm1(e1x, e1y, e1z), norm1(e2x, e2y, e2z));
+  const V extent2 = hn::Mul(extent, extent);
+  const V reach = hn::Max(hn::Abs(ax), hn::Max(hn::Abs(ay), hn::Abs(az)));
+  const V t_error = hn::Mul(hn::Mul(reach, extent2), hn::Set(d, 8.2 * 0x1p-53));
+  const V den_error = hn::Mul(hn::Mul(norm1(dx, dy, dz), extent2), hn::Set(d, 7.2 * 0x1p-53));
+
   const V inverse = hn::Div(hn::Set(d, 1.0), den);
   const V quotient = hn::Mul(t_num, inverse);
-  const V sum = hn::MulAdd(den_error, hn::Abs(inverse), t_num_relative);
-  // The factor 1.02 holds for small errors only.
-  const V relative = hn::IfThenElse(hn::Lt(sum, hn::Set(d, 0x1p-10)), sum,
-                                    hn::Set(d, std::numeric_limits<double>::infinity()));
-  const V slack = hn::Mul(quotient, hn::MulAdd(relative, hn::Set(d, 1.02), hn::Set(d, 5.0 * 0x1p-53)));
-  t = RoundToFloat(df, hn::Sub(quotient, slack));
-  const auto other = RoundToFloat(df, hn::Add(quotient, slack));
+  const V error = hn::Mul(hn::MulAdd(hn::Abs(quotient), den_error, t_error), hn::Abs(inverse));
+  const V slack = hn::MulAdd(error, hn::Set(d, 1.02), hn::Mul(hn::Abs(quotient), hn::Set(d, 5.0 * 0x1p-53)));
+  const V small = hn::Set(d, 0x1p-11);
+  const auto errors_small = hn::And(hn::Lt(t_error, hn::Mul(hn::Abs(t_num), small)),
+                                    hn::Lt(den_error, hn::Mul(hn::Abs(den), small)));
+  const V safe_slack =
+      hn::IfThenElse(errors_small, slack, hn::Set(d, std::numeric_limits<double>::infinity()));
+  t = RoundToFloat(df, hn::Sub(quotient, safe_slack));
+  const auto other = RoundToFloat(df, hn::Add(quotient, safe_slack));
   const auto in_range =
       hn::And(hn::Gt(t, hn::Zero(df)), hn::Lt(t, hn::Set(df, std::numeric_limits<float>::infinity())));
   certain = hn::And(hn::Eq(t, other), in_range);

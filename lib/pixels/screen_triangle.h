@@ -14,24 +14,27 @@ namespace plumb::detail {
 /// Planes 0 to 2 are the edge functions E0, E1, E2, turned so that all three are positive where the
 /// triangle is seen in front, and scaled so that |a| + |b| = 1: their unit is about a pixel. Plane 3 is
 /// 1/t; its error is up to kDepthRelative |1/t| more.
-struct alignas(64) ScreenTriangle {
+struct alignas(16) ScreenTriangle {
   double a[4], b[4], c[4];
-
-  // For the depth itself: t = t_num / (normal . d) on the pixel's float ray d. The denominator is off by at
-  // most normal_error |d|_1, t_num by t_num_relative of itself.
-  double normal[3];
-  double t_num, t_num_relative, normal_error;
-
   float error[4];
-  float nearest;                ///< No pixel sees it at 1/t above this; with room for the rounding of t.
   std::int32_t x0, y0, x1, y1;  ///< Pixels that may see it, both ends included.
   std::uint32_t index;          ///< In the mesh.
+  float nearest;                ///< No pixel sees it at 1/t above this; with room for the rounding of t.
   /// The eye lies in its plane or so near that the side it sees is open: it is to be drawn as it is and
   /// with all edges turned, and every pixel it may cover is to be decided exactly.
   bool side_open;
 
   static constexpr double kDepthRelative = 0x1p-26;
 };
-static_assert(sizeof(ScreenTriangle) == 192);
+
+/// The same about one tile, in float: pixel centres count from the tile's centre, and `error` is everything
+/// between a value computed at a pixel and the exact one for its ray.
+struct alignas(16) TileTriangle {
+  float a[4], b[4], c[4], error[4];
+  float nearest;
+  std::uint32_t index;
+  std::uint8_t x0, y0, x1, y1;  ///< In the tile.
+  std::uint32_t tile;           ///< Which one, counted row by row.
+};
 
 }  // namespace plumb::detail

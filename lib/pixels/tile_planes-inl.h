@@ -8,6 +8,7 @@
 #define PLUMB_PIXELS_TILE_PLANES_INL_H_
 #endif
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -63,82 +64,99 @@ constexpr float kGreatestInverse = 0x1p100f;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 HWY_ALIGN constexpr double kPlaneLimit[4] = {kNoLimit, kNoLimit, kNoLimit, double{kGreatestInverse}};
 
-/// ScreenTriangle's planes about a tile's centre; `error` is now everything between a value computed at a
-/// pixel and the exact one for its ray. `grow` is that and how far the plane rises from a block's centre to
-/// its pixels' centres.
-struct TilePlanes {
-  HWY_ALIGN float a[4];
-  HWY_ALIGN float b[4];
-  HWY_ALIGN float c[4];
-  HWY_ALIGN float error[4];
-  HWY_ALIGN float grow[4];
-  float nearest;
-};
+// A plane about a tile's centre (x, y), as TileTriangle has it. `given` is ScreenTriangle's error.
+template <class D, class V = hn::Vec<D>, class VF = hn::Vec<hn::Rebind<float, D>>>
+HWY_INLINE void PlacePlane(D d, V a, V b, V c, V given, V x, V y, V relative, V limit, VF& centre,
+                           VF& error) {
+  const hn::Rebind<float, D> df;
+  const V value = hn::MulAdd(b, y, hn::MulAdd(a, x, c));
+  const V slope = hn::Add(hn::Abs(a), hn::Abs(b));
+  const V greatest = hn::MulAdd(slope, hn::Set(d, 16.0), hn::Abs(value));
+  const V sum = hn::MulAdd(greatest, relative, given);
+  // Rounded up when it becomes a float. NaN becomes infinity: nothing is certain.
+  const V padded = hn::MulAdd(sum, hn::Set(d, 1.0 + 0x1p-20), hn::Set(d, 0x1p-140));
+  const auto usable = hn::Lt(hn::Add(greatest, padded), limit);
+  centre = RoundToFloat(df, value);
+  error = RoundToFloat(df, hn::IfThenElse(usable, padded, hn::Set(d, kNoLimit)));
+}
 
-// About the tile whose upper left pixel is (tile_x, tile_y). False where no pixel of the tile can be covered.
-HWY_INLINE bool PlacePlanes(const ScreenTriangle& triangle, int tile_x, int tile_y, TilePlanes& planes) {
+// Places a triangle about the tile whose upper left pixel is (tile_x, tile_y). Their pixels must meet.
+HWY_INLINE void PlaceTriangle(const ScreenTriangle& from, int tile_x, int tile_y, TileTriangle& to) {
   const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto x = hn::Set(d, tile_x + 0.5 * (kTilePx - 1));
   const auto y = hn::Set(d, tile_y + 0.5 * (kTilePx - 1));
-  const auto infinity = hn::Set(d, kNoLimit);
-  auto outside = hn::FirstN(df, 0);
   for (size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
-    const auto a = hn::Load(d, triangle.a + lane);
-    const auto b = hn::Load(d, triangle.b + lane);
-    const auto c = hn::MulAdd(b, y, hn::MulAdd(a, x, hn::Load(d, triangle.c + lane)));
-    const auto slope = hn::Add(hn::Abs(a), hn::Abs(b));
-    const auto greatest = hn::MulAdd(slope, hn::Set(d, 16.0), hn::Abs(c));
-    const auto given = hn::PromoteTo(d, hn::Load(df, triangle.error + lane));
-    const auto sum = hn::MulAdd(greatest, hn::Load(d, kPlaneRelative + lane), given);
-    // Rounded up when it becomes a float. NaN becomes infinity: nothing is certain.
-    const auto padded = hn::MulAdd(sum, hn::Set(d, 1.0 + 0x1p-20), hn::Set(d, 0x1p-140));
-    const auto usable = hn::Lt(hn::Add(greatest, padded), hn::Load(d, kPlaneLimit + lane));
-    const auto error = RoundToFloat(df, hn::IfThenElse(usable, padded, infinity));
-    const auto rise = RoundToFloat(df, hn::Mul(slope, hn::Set(d, 1.0001)));
-    const auto centre = RoundToFloat(df, c);
-    hn::Store(RoundToFloat(df, a), df, planes.a + lane);
-    hn::Store(RoundToFloat(df, b), df, planes.b + lane);
-    hn::Store(centre, df, planes.c + lane);
-    hn::Store(error, df, planes.error + lane);
-    hn::Store(hn::MulAdd(rise, hn::Set(df, 1.5f), error), df, planes.grow + lane);
-    // The fourth plane, 1/t, must not be below 0 in all of the tile either.
-    const auto most = hn::MulAdd(rise, hn::Set(df, 15.5f), hn::Add(centre, error));
-    outside = hn::Or(outside, hn::Lt(most, hn::Zero(df)));
+    const auto a = hn::LoadU(d, from.a + lane), b = hn::LoadU(d, from.b + lane);
+    auto centre = hn::Undefined(df), error = hn::Undefined(df);
+    PlacePlane(d, a, b, hn::LoadU(d, from.c + lane), hn::PromoteTo(d, hn::Load(df, from.error + lane)), x, y,
+               hn::Load(d, kPlaneRelative + lane), hn::Load(d, kPlaneLimit + lane), centre, error);
+    hn::Store(RoundToFloat(df, a), df, to.a + lane);
+    hn::Store(RoundToFloat(df, b), df, to.b + lane);
+    hn::Store(centre, df, to.c + lane);
+    hn::Store(error, df, to.error + lane);
   }
-  planes.nearest = triangle.nearest;
-  return hn::AllFalse(df, outside);
+  to.nearest = from.nearest;
+  to.index = from.index;
+  to.x0 = static_cast<std::uint8_t>(std::max(from.x0 - tile_x, 0));
+  to.y0 = static_cast<std::uint8_t>(std::max(from.y0 - tile_y, 0));
+  to.x1 = static_cast<std::uint8_t>(std::min(from.x1 - tile_x, kTilePx - 1));
+  to.y1 = static_cast<std::uint8_t>(std::min(from.y1 - tile_y, kTilePx - 1));
 }
 
-// Turns the edges to the triangle's other side.
-inline void TurnEdges(TilePlanes& planes) {
+// The triangle as seen from its other side.
+inline void TurnEdges(TileTriangle& triangle) {
   for (int i = 0; i < 3; ++i) {
-    planes.a[i] = -planes.a[i];
-    planes.b[i] = -planes.b[i];
-    planes.c[i] = -planes.c[i];
+    triangle.a[i] = -triangle.a[i];
+    triangle.b[i] = -triangle.b[i];
+    triangle.c[i] = -triangle.c[i];
   }
+}
+
+// By how much a plane can be above its computed value at the centre of a square within `half` pixels of it,
+// and below.
+HWY_INLINE void Grow(const TileTriangle& triangle, float half, float grow[4]) {
+  const hn::CappedTag<float, 4> d;
+  for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    const auto slope = hn::Add(hn::Abs(hn::Load(d, triangle.a + i)), hn::Abs(hn::Load(d, triangle.b + i)));
+    hn::Store(hn::MulAdd(slope, hn::Set(d, 1.0001f * half), hn::Load(d, triangle.error + i)), d, grow + i);
+  }
+}
+
+// Whether no pixel of the tile can be covered, or none with 1/t above 0.
+HWY_INLINE bool OutsideTile(const TileTriangle& triangle) {
+  const hn::CappedTag<float, 4> d;
+  HWY_ALIGN float grow[4];
+  Grow(triangle, 15.5f, grow);
+  auto outside = hn::FirstN(d, 0);
+  for (size_t i = 0; i < 4; i += hn::Lanes(d))
+    outside =
+        hn::Or(outside, hn::Lt(hn::Add(hn::Load(d, triangle.c + i), hn::Load(d, grow + i)), hn::Zero(d)));
+  return !hn::AllFalse(d, outside);
 }
 
 // Of the blocks [first, first + Lanes) of a tile: those that may hold a pixel that the triangle covers and
-// that `low`, a bound of 1/t, does not hide; and those whose every pixel it certainly covers.
+// that `low`, a bound of 1/t, does not hide; and those whose every pixel it certainly covers. `grow` is that
+// of a block, 1.5 pixels.
 template <class D>
-HWY_INLINE void TestBlocks(D d, const TilePlanes& planes, size_t first, const float* low, hn::Mask<D>& open,
-                           hn::Mask<D>& full) {
+HWY_INLINE void TestBlocks(D d, const TileTriangle& triangle, const float grow[4], size_t first,
+                           const float* low, hn::Mask<D>& open, hn::Mask<D>& full) {
   const auto x = hn::Load(d, kCentres.block_x + first);
   const auto y = hn::Load(d, kCentres.block_y + first);
+  const auto value = [&](int i) HWY_ATTR {
+    return hn::MulAdd(hn::Set(d, triangle.a[i]), x,
+                      hn::MulAdd(hn::Set(d, triangle.b[i]), y, hn::Set(d, triangle.c[i])));
+  };
   // Not below: NaN keeps a block open.
   auto closed = hn::FirstN(d, 0);
   auto partly = hn::FirstN(d, 0);
   for (int i = 0; i < 3; ++i) {
-    const auto value = hn::MulAdd(hn::Set(d, planes.a[i]), x,
-                                  hn::MulAdd(hn::Set(d, planes.b[i]), y, hn::Set(d, planes.c[i])));
-    const auto grow = hn::Set(d, planes.grow[i]);
-    closed = hn::Or(closed, hn::Lt(hn::Add(value, grow), hn::Zero(d)));
-    partly = hn::Or(partly, hn::Not(hn::Gt(value, grow)));
+    const auto edge = value(i);
+    const auto room = hn::Set(d, grow[i]);
+    closed = hn::Or(closed, hn::Lt(hn::Add(edge, room), hn::Zero(d)));
+    partly = hn::Or(partly, hn::Not(hn::Gt(edge, room)));
   }
-  const auto inverse =
-      hn::MulAdd(hn::Set(d, planes.a[3]), x, hn::MulAdd(hn::Set(d, planes.b[3]), y, hn::Set(d, planes.c[3])));
-  const auto high = hn::Min(hn::Add(inverse, hn::Set(d, planes.grow[3])), hn::Set(d, planes.nearest));
+  const auto high = hn::Min(hn::Add(value(3), hn::Set(d, grow[3])), hn::Set(d, triangle.nearest));
   closed = hn::Or(closed, hn::Lt(high, hn::Load(d, low + first)));
   open = hn::Not(closed);
   full = hn::AndNot(partly, open);

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 #include "base/mask_bits-inl.h"
 #include "hwy/highway.h"
@@ -130,25 +129,25 @@ inline void LoadTile(const TileTask& task, const Frame& frame, TileState& state)
   UpdateTile(state);
 }
 
-// What a depth is computed from, for each pixel of a block its own triangle.
-struct BlockQuotients {
-  alignas(64) double normal[3][kBlockPixels];
-  alignas(64) double t_num[kBlockPixels];
-  alignas(64) double t_num_relative[kBlockPixels];
-  alignas(64) double normal_error[kBlockPixels];
+// The corners of a block's triangles, each pixel its own.
+struct BlockCorners {
+  alignas(64) float corner[9][kBlockPixels];
 
-  void set(int pixel, const ScreenTriangle& triangle) {
-    for (int i = 0; i < 3; ++i) normal[i][pixel] = triangle.normal[i];
-    t_num[pixel] = triangle.t_num;
-    t_num_relative[pixel] = triangle.t_num_relative;
-    normal_error[pixel] = triangle.normal_error;
+  void set(int pixel, MeshView mesh, std::uint32_t triangle) {
+    const glm::uvec3& c = mesh.triangles[triangle];
+    const glm::vec3 vertex[3] = {mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]};
+    for (int v = 0; v < 3; ++v) {
+      corner[3 * v][pixel] = vertex[v].x;
+      corner[3 * v + 1][pixel] = vertex[v].y;
+      corner[3 * v + 2][pixel] = vertex[v].z;
+    }
   }
 };
 
-// The t of a triangle (or, from BlockQuotients, of each pixel's own) at a block's pixels; a bit where it is
-// certain.
-template <class Source>
-HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Source& source, float* t) {
+// The depths at a block's pixels, `corner(d, lane, k)` being the coordinate k of the triangles of the
+// vector of pixels from `lane` on; a bit where it is certain.
+template <class Corner>
+HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Corner& corner, float* t) {
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
   const Camera& camera = task.camera;
@@ -156,69 +155,79 @@ HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Sour
   const auto base_x = hn::Set(d, task.x + tile_x(block * kBlockPixels) + 2.0);
   const auto base_y = hn::Set(d, task.y + tile_y(block * kBlockPixels) + 2.0);
   std::uint32_t bits = 0;
-  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
-    const auto field = [&](const auto& of_all) HWY_ATTR {
-      if constexpr (std::is_same_v<Source, BlockQuotients>) {
-        return hn::Load(d, of_all + lane);
-      } else {
-        return hn::Set(d, of_all);
-      }
-    };
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto x = hn::Add(base_x, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_x + lane)));
     const auto y = hn::Add(base_y, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_y + lane)));
     const auto dx = DirectionComponent(d, x, y, camera.corner.x, camera.du.x, camera.dv.x);
     const auto dy = DirectionComponent(d, x, y, camera.corner.y, camera.du.y, camera.dv.y);
     const auto dz = DirectionComponent(d, x, y, camera.corner.z, camera.du.z, camera.dv.z);
-    const auto length = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
-    const auto den =
-        hn::MulAdd(field(source.normal[2]), dz,
-                   hn::MulAdd(field(source.normal[1]), dy, hn::Mul(field(source.normal[0]), dx)));
     auto depth = hn::Undefined(df);
     auto certain = hn::FirstN(df, 0);
-    QuotientDepth(d, den, field(source.t_num), field(source.t_num_relative),
-                  hn::Mul(length, field(source.normal_error)), depth, certain);
+    TriangleDepths(
+        d, camera.eye, [&](int k) HWY_ATTR { return corner(d, lane, k); }, dx, dy, dz, depth, certain);
     hn::Store(depth, df, t + lane);
     bits |= MaskBits(df, certain) << lane;
   }
   return bits;
 }
 
+// Those of one triangle.
+inline std::uint32_t BlockDepthsOf(const TileTask& task, int block, std::uint32_t triangle, float* t) {
+  const glm::uvec3& c = task.mesh.triangles[triangle];
+  const glm::vec3* const vertex[3] = {&task.mesh.positions[c.x], &task.mesh.positions[c.y],
+                                      &task.mesh.positions[c.z]};
+  return BlockDepths(
+      task, block,
+      [&](auto d, size_t, int k) HWY_ATTR { return hn::Set(d, double{(*vertex[k / 3])[k % 3]}); }, t);
+}
+
+// Those of each pixel's own triangle, for pixels whose bit is set; `sample` is one of them.
+inline std::uint32_t BlockDepthsOfEach(const TileTask& task, int block, const std::uint32_t* triangle,
+                                       std::uint32_t pixels, std::uint32_t sample, float* t) {
+  BlockCorners corners;
+  for (int i = 0; i < kBlockPixels; ++i)
+    corners.set(i, task.mesh, (pixels >> i & 1) != 0 ? triangle[i] : sample);
+  return BlockDepths(
+      task, block,
+      [&](auto d, size_t lane, int k) HWY_ATTR {
+        const hn::Rebind<float, decltype(d)> df;
+        return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane));
+      },
+      t);
+}
+
 // Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
 inline void LearnBlock(const TileTask& task, TileState& state, int block, std::uint32_t pixels) {
-  const int first = block * kBlockPixels;
+  const size_t first = static_cast<size_t>(block * kBlockPixels);
   const hn::CappedTag<std::uint32_t, 16> d;
-  const std::uint32_t* winner = state.winner + first;
+  const hn::RebindToFloat<decltype(d)> df;
   std::uint32_t unknown = 0;
-  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
-    const auto known = hn::Load(d, state.known + static_cast<size_t>(first) + lane);
-    unknown |= MaskBits(d, hn::Ne(hn::Load(d, winner + lane), known)) << lane;
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto known = hn::Load(d, state.known + first + lane);
+    unknown |= MaskBits(d, hn::Ne(hn::Load(d, state.winner + first + lane), known)) << lane;
   }
   unknown &= pixels;
   if (unknown == 0) return;
 
+  const std::uint32_t* winner = state.winner + first;
   const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
   std::uint32_t same = 0;
-  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d))
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
     same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
   HWY_ALIGN float depth[kBlockPixels];
-  std::uint32_t certain = unknown;
-  if ((unknown & ~same) == 0) {
-    certain &= BlockDepths(task, block, task.triangles[sample], depth);
-  } else {
-    BlockQuotients quotients;
-    for (int i = 0; i < kBlockPixels; ++i)
-      quotients.set(i, task.triangles[(unknown >> i & 1) != 0 ? winner[i] : sample]);
-    certain &= BlockDepths(task, block, quotients, depth);
-  }
-  for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    const size_t offset = static_cast<size_t>(first) + i;
-    state.t[offset] = depth[i];
-    state.id[offset] = task.id_of(winner[i]);
-    state.known[offset] = winner[i];
+  const std::uint32_t certain =
+      unknown & ((unknown & ~same) == 0 ? BlockDepthsOf(task, block, sample, depth)
+                                        : BlockDepthsOfEach(task, block, winner, unknown, sample, depth));
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto mask = MaskOfBits(d, certain >> lane);
+    const auto triangle = hn::Load(d, winner + lane);
+    hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
+    hn::BlendedStore(hn::Add(triangle, hn::Set(d, task.first_id)), mask, d, state.id + first + lane);
+    hn::BlendedStore(triangle, mask, d, state.known + first + lane);
   }
   for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1)
-    learn_pixel(task, state, first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
+    learn_pixel(task, state,
+                static_cast<int>(first) + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
 }
 
 // Gives the frame what the tile won.

@@ -11,7 +11,7 @@ glm::vec3 direction(const TileTask& task, int offset) {
 }
 
 Triangle corners(const TileTask& task, std::uint32_t triangle) {
-  const glm::uvec3& c = task.mesh.triangles[task.triangles[triangle].index];
+  const glm::uvec3& c = task.mesh.triangles[triangle];
   return {task.mesh.positions[c.x], task.mesh.positions[c.y], task.mesh.positions[c.z]};
 }
 
@@ -21,7 +21,7 @@ void learn_pixel(const TileTask& task, TileState& state, int offset) {
   const std::uint32_t triangle = state.winner[offset];
   state.known[offset] = triangle;
   state.t[offset] = line_depth(task.camera.eye, direction(task, offset), corners(task, triangle));
-  state.id[offset] = task.id_of(triangle);
+  state.id[offset] = task.first_id + triangle;
 }
 
 bool decide_pixel(const TileTask& task, TileState& state, int offset, std::uint32_t triangle) {
@@ -32,7 +32,7 @@ bool decide_pixel(const TileTask& task, TileState& state, int offset, std::uint3
   if (task.exact_only && !ray_is_valid(ray)) return false;
   float t = 0.0f;
   if (!line_hit(ray.origin, ray.direction, corners(task, triangle), t) || !depth_counts(ray, t)) return false;
-  const std::uint32_t id = task.id_of(triangle);
+  const std::uint32_t id = task.first_id + triangle;
   if (!hit_before(t, id, {state.t[offset], state.id[offset]})) return false;
   state.winner[offset] = state.known[offset] = triangle;
   state.t[offset] = t;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "pixels/screen_triangle.h"
 #include "pixels/tile.h"
 #include "plumb/camera.h"
 #include "plumb/mesh.h"
@@ -15,10 +14,7 @@ struct TileTask {
   bool exact_only;  ///< directions may be zero or not finite: ask before each exact decision
   MeshView mesh;
   std::uint32_t first_id;
-  const ScreenTriangle* triangles;
   int x, y;  ///< of the tile's upper left pixel
-
-  std::uint32_t id_of(std::uint32_t triangle) const { return first_id + triangles[triangle].index; }
 };
 
 /// A tile while triangles are drawn into it, pixels ordered as pixels/tile.h says. Each pixel's nearest
@@ -35,7 +31,7 @@ struct TileState {
   /// every certain hit replaces it.
   alignas(64) float inverse_low[kTilePixels];
   alignas(64) float inverse_high[kTilePixels];
-  /// That triangle, an index into TileTask::triangles, or kEarlier.
+  /// That triangle's index in the mesh, or kEarlier.
   alignas(64) std::uint32_t winner[kTilePixels];
   /// Whose exact answer (t, id) is; where that is not `winner`, the answer is still to be computed.
   alignas(64) std::uint32_t known[kTilePixels];
