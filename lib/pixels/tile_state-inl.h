@@ -198,7 +198,7 @@ inline std::uint32_t BlockDepthsOfEach(const TileTask& task, int block, const st
 
 // Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
 inline void LearnBlock(const TileTask& task, TileState& state, int block, std::uint32_t pixels) {
-  const size_t first = static_cast<size_t>(block * kBlockPixels);
+  const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
   const hn::RebindToFloat<decltype(d)> df;
   std::uint32_t unknown = 0;
