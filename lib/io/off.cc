@@ -20,8 +20,7 @@ class OffReader {
     read_header();
     read_counts();
     // The counts are known to fit the file.
-    builder_.mesh().positions.reserve(vertices_);
-    builder_.mesh().triangles.reserve(faces_);
+    builder_.reserve(vertices_, faces_);
     element_ = "vertex";
     for (row_ = 0; row_ < vertices_; ++row_) read_vertex();
     element_ = "face";

@@ -24,8 +24,7 @@ class BodyReader {
 
   void read() {
     // The header's counts are known to fit the file.
-    builder_.mesh().positions.reserve(header_.vertices);
-    builder_.mesh().triangles.reserve(header_.faces);
+    builder_.reserve(header_.vertices, header_.faces);
     for (const PlyElement& element : header_.elements) {
       if (!element.properties.empty()) read_element(element);
     }
@@ -76,15 +75,14 @@ class BodyReader {
     const std::uint64_t corners = read_length(property);
     if (corners < 3) source_.fail(too_few_corners(corners));
     builder_.begin_polygon();
-    for (std::uint64_t i = 0; i < corners; ++i) {
-      const std::int64_t index = source_.integer(property.type, property);
+    source_.integers(corners, property, [&](std::int64_t index) {
       if (index < 0 || static_cast<std::uint64_t>(index) >= header_.vertices) {
         source_.fail(index_out_of_range(index, header_.vertices));
       }
       if (!builder_.add_corner(static_cast<std::uint32_t>(index))) {
         source_.fail(too_many("triangles", builder_.limits().triangles));
       }
-    }
+    });
   }
 
   Source source_;

@@ -62,8 +62,7 @@ std::uint64_t read_binary_header(std::string_view bytes, const std::string& file
 
 void read_binary(std::string_view bytes, const std::string& file, MeshBuilder& builder) {
   const std::uint64_t triangles = read_binary_header(bytes, file, builder.limits());
-  builder.mesh().positions.reserve(3 * triangles);
-  builder.mesh().triangles.reserve(triangles);
+  builder.reserve(3 * triangles, triangles);
   const char* at = bytes.data() + kHeaderBytes;
   std::uint32_t vertex = 0;
   for (std::uint64_t i = 0; i < triangles; ++i, at += kTriangleBytes) {
