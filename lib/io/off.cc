@@ -82,11 +82,11 @@ class OffReader {
     return static_cast<std::uint64_t>(count);
   }
 
-  // A number takes two bytes or more: a digit and what ends it, but for the last of the file.
+  // A number takes two bytes or more: what parts it from the one before, and a digit.
   void check_length() const {
     const std::uint64_t vertex_bytes = 2 * (3 + extra_numbers_ + (has_colour_ ? 3 : 0));
     const std::uint64_t face_bytes = 2 * 4;
-    std::uint64_t left = static_cast<std::uint64_t>(text_.data() + text_.size() - lexer_.position()) + 1;
+    std::uint64_t left = static_cast<std::uint64_t>(text_.data() + text_.size() - lexer_.position());
     if (vertices_ > left / vertex_bytes) {
       fail(cut_short("the count of vertices", vertices_, vertex_bytes, left));
     }
