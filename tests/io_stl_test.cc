@@ -186,20 +186,21 @@ TEST_SUITE("stl errors") {
     std::string many = make_stl_binary(kMesh);
     many.replace(80, 4, "\xff\xff\xff\xff");
     const std::string good = make_stl_binary(kMesh);
-    check_cases("bad.stl",
-                {
-                    {"", "byte 0: ", "the file ends within the 84 bytes"},
-                    {"soli", "byte 4: ", "the file ends within the 84 bytes"},
-                    {"solidity\nendsolid\n", "byte 18: ", "a text begins with \"solid\""},
-                    {good.substr(0, 83), "byte 83: ", "the file ends within the 84 bytes"},
-                    {good.substr(0, 84), "byte 80: ",
-                     "the count of triangles claims 4 rows of at least 50 bytes, but only 0 bytes"},
-                    {good.substr(0, good.size() - 1), "byte 80: ", "claims 4 rows"},
-                    {make_stl_binary(kMesh, "solid").substr(0, 283), "byte 80: ", "but only 199 bytes"},
-                    {many, "byte 80: ", "the count of triangles claims 4294967295 rows"},
-                    {facet(kThree) + facet(kThree),
-                     "byte 80: ", "or it is a text that does not begin with \"solid\""},
-                });
+    check_cases(
+        "bad.stl",
+        {
+            {"", "byte 0: ", "the file ends within the 84 bytes"},
+            {"soli", "byte 4: ", "the file ends within the 84 bytes"},
+            {"solidity\nendsolid\n", "byte 18: ", "a text begins with \"solid\""},
+            {good.substr(0, 83), "byte 83: ", "the file ends within the 84 bytes"},
+            {good.substr(0, 84),
+             "byte 80: ", "the count of triangles claims 4 rows of at least 50 bytes, but only 0 bytes"},
+            {good.substr(0, good.size() - 1), "byte 80: ", "claims 4 rows"},
+            {make_stl_binary(kMesh, "solid").substr(0, 283),
+             "byte 80: ", "but only 199 bytes are left for it; the file is cut short"},
+            {many, "byte 80: ", "the count of triangles claims 4294967295 rows"},
+            {facet(kThree) + facet(kThree), "byte 80: ", "or is a text that does not begin with \"solid\""},
+        });
   }
 
   TEST_CASE("more triangles or vertices than there are ids are refused") {

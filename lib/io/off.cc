@@ -38,12 +38,12 @@ class OffReader {
 
   // [ST][C][N]OFF. The case of letters tells: nOFF has vertices of n coordinates, NOFF has normals.
   void read_header() {
-    constexpr char kExpected[] =
-        "an OFF file begins with OFF, or with ST, C or N (or more of them) before it";
-    if (!lexer_.find_token()) fail(kExpected);
-    const std::string_view keyword = lexer_.peek();
-    if (!keyword.ends_with("OFF")) fail(kExpected);
-    std::string_view prefix = keyword.substr(0, keyword.size() - 3);
+    const std::string expected = "an OFF file begins with OFF, or COFF, NOFF, STOFF or more such as STCNOFF";
+    if (!lexer_.find_token()) fail(expected + "; this one is empty");
+    keyword_ = lexer_.peek();
+    std::string_view prefix = keyword_;
+    if (!prefix.ends_with("OFF")) fail(expected + "; found " + in_quotes(keyword_));
+    prefix.remove_suffix(3);
     const auto strip = [&](std::string_view word) {
       const bool is_there = prefix.starts_with(word);
       if (is_there) prefix.remove_prefix(word.size());
@@ -53,10 +53,10 @@ class OffReader {
     has_colour_ = strip("C");
     if (strip("N")) extra_numbers_ += 3;
     if (prefix == "4" || prefix == "n" || prefix == "4n") {
-      fail(in_quotes(keyword) + " has vertices in another space; only three coordinates are read");
+      fail(in_quotes(keyword_) + " has vertices in another space; only three coordinates are read");
     }
-    if (!prefix.empty()) fail(kExpected + std::string(", not with ") + in_quotes(keyword));
-    lexer_.advance(keyword.data() + keyword.size());
+    if (!prefix.empty()) fail(expected + "; found " + in_quotes(keyword_));
+    lexer_.advance(keyword_.data() + keyword_.size());
     if (lexer_.has_token() && lexer_.peek() == "BINARY") {
       fail("binary OFF files are not read; store the mesh as text");
     }
@@ -75,10 +75,8 @@ class OffReader {
   }
 
   std::uint64_t read_count() {
-    std::int64_t count = 0;
-    if (!lexer_.has_token() || !lexer_.read(count) || count < 0) {
-      fail_at_token("the counts of vertices, faces and perhaps edges");
-    }
+    const std::int64_t count = read_integer("the counts of vertices, faces and perhaps edges");
+    if (count < 0) fail("the count " + std::to_string(count) + " is negative");
     return static_cast<std::uint64_t>(count);
   }
 
@@ -110,8 +108,8 @@ class OffReader {
   std::string wrong_extra(std::uint64_t found) const {
     std::string expected = std::to_string(extra_numbers_ + (has_colour_ ? 3 : 0));
     if (has_colour_) expected += " or " + std::to_string(extra_numbers_ + 4);
-    return "after its 3 coordinates a vertex of this file has " + expected + " numbers, this one has " +
-           std::to_string(found);
+    return "a vertex of a file " + in_quotes(keyword_) + " has " + expected +
+           " numbers after its coordinates, this one has " + std::to_string(found);
   }
 
   void read_face() {
@@ -173,6 +171,7 @@ class OffReader {
   const std::string& file_;
   Lexer<LexerSyntax{.comments = true}> lexer_;
   MeshBuilder builder_;
+  std::string_view keyword_;
   std::uint64_t extra_numbers_ = 0;  // of a vertex after its coordinates, but for a colour
   bool has_colour_ = false;
   std::uint64_t vertices_ = 0;

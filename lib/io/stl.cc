@@ -51,9 +51,10 @@ std::uint64_t read_binary_header(std::string_view bytes, const std::string& file
   const std::uint64_t triangles = count_of(bytes);
   const std::uint64_t left = bytes.size() - kHeaderBytes;
   if (triangles > left / kTriangleBytes) {
+    const std::string or_text = ", or is a text that does not begin with \"solid\"";
     fail_in_file(file, place,
                  cut_short("the count of triangles", triangles, kTriangleBytes, left) +
-                     ", or it is a text that does not begin with \"solid\"");
+                     (begins_with_solid(bytes) ? "" : or_text));
   }
   if (triangles > limits.triangles) fail_in_file(file, place, too_many("triangles", limits.triangles));
   if (3 * triangles > limits.vertices) fail_in_file(file, place, too_many("vertices", limits.vertices));
