@@ -81,7 +81,7 @@ void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& option
 
 Bvh::Bvh(MeshView mesh, const BuildOptions& options) {
   detail::check_mesh(mesh, options.first_id, "Bvh");
-  // Eight children are at least as fast as four on every target measured (docs/performance.md).
+  // Eight children are faster than four on AVX2 and AVX-512; without vector instructions four are.
   const int width = options.width == 0 ? 8 : options.width;
   if (width != 2 && width != 4 && width != 8) {
     throw Error("plumb: BuildOptions::width is " + std::to_string(options.width) +
