@@ -169,5 +169,10 @@ TEST_SUITE("ply errors") {
     CHECK(contains(error_of_reading("bad.ply", bytes, limits), "line 3: more than 4 vertices"));
     limits = {.vertices = 5, .triangles = 6};
     CHECK(error_of_reading("bad.ply", bytes, limits) == "no error");
+    for (const std::string& format : kPlyFormats) {
+      const std::string plain = make_ply(format, kVertices, {{0, 1, 2}, {2, 1, 0}, {1, 2, 3}});
+      CHECK(contains(error_of_reading("bad.ply", plain, {.triangles = 2}), ": more than 2 triangles"));
+      CHECK(error_of_reading("bad.ply", plain, {.triangles = 3}) == "no error");
+    }
   }
 }

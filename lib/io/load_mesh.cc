@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "base/fp_mode.h"
-#include "io/memory.h"
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/ply.h"
@@ -75,7 +74,6 @@ Bytes read_file(const fs::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), std::fclose);
   if (file == nullptr) throw Error(name + ": cannot be opened: " + system_message());
   Bytes bytes{std::make_unique_for_overwrite<char[]>(size), static_cast<std::size_t>(size)};
-  detail::expect_writes(bytes.data.get(), bytes.size);
   if (std::fread(bytes.data.get(), 1, bytes.size, file.get()) != bytes.size) {
     throw Error(name + ": cannot be read to its end: " +
                 (std::ferror(file.get()) != 0 ? system_message() : "it became shorter meanwhile"));

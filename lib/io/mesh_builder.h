@@ -41,6 +41,14 @@ class MeshBuilder {
     return true;
   }
 
+  /// Adds a polygon of three corners at once. False, and nothing added, when it would have no id.
+  bool add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (mesh_.triangles.size() >= limits_.triangles) return false;
+    mesh_.triangles.emplace_back(a, b, c);
+    ++faces_;
+    return true;
+  }
+
   /// Corners of the polygon so far.
   std::uint64_t corners() const { return corners_; }
 

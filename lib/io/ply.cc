@@ -35,6 +35,11 @@ class BodyReader {
     const bool is_vertex = element.name == "vertex";
     const bool is_face = element.name == "face";
     for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (is_face) {
+        row += source_.plain_triangles(element, element.count - row, header_.vertices,
+                                       [&](auto... corners) { return builder_.add_triangle(corners...); });
+        if (row == element.count) break;
+      }
       source_.begin_row(element, row);
       for (const PlyProperty& property : element.properties) read_property(property);
       source_.end_row();

@@ -59,6 +59,12 @@ class PlyAsciiSource {
     for (std::uint64_t i = 0; i < count; ++i) take(integer(property.type, property));
   }
 
+  /// A text has no rows that can be read faster.
+  template <typename Take>
+  std::uint64_t plain_triangles(const PlyElement&, std::uint64_t, std::uint64_t, const Take&) {
+    return 0;
+  }
+
   /// Passes over `count` values, which must be of their type all the same.
   void skip(std::uint64_t count, const PlyProperty& property);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -48,6 +49,31 @@ class PlyBinarySource {
   template <typename Take>
   void integers(std::uint64_t count, const PlyProperty& property, const Take& take) {
     read_integers(count, property.type, property, take);
+  }
+
+  /// The commonest rows faster: as long as a row of `face` is a byte 3 and three 32-bit indices below
+  /// `vertices`, and at most `rows` times, gives them to `take`, until that returns false. Returns how
+  /// many rows were read. Whatever else comes next is for the other functions, with its errors.
+  template <typename Take>
+  std::uint64_t plain_triangles(const PlyElement& face, std::uint64_t rows, std::uint64_t vertices,
+                                const Take& take) {
+    const PlyProperty& corners = face.properties.front();
+    const bool is_signed = corners.type == PlyType::Int32;
+    if (face.properties.size() != 1 || size_of(corners.count_type) != 1) return 0;
+    if (!is_signed && corners.type != PlyType::UInt32) return 0;
+    if (is_signed) vertices = std::min(vertices, std::uint64_t{1} << 31);  // what is above is negative
+    constexpr std::size_t kRowBytes = 13;
+    rows = std::min<std::uint64_t>(rows, static_cast<std::size_t>(end_ - at_) / kRowBytes);
+    const char* at = at_;
+    std::uint64_t row = 0;
+    for (; row < rows && *at == 3; ++row, at += kRowBytes) {
+      const auto a = load_binary<std::uint32_t, kSwap>(at + 1);
+      const auto b = load_binary<std::uint32_t, kSwap>(at + 5);
+      const auto c = load_binary<std::uint32_t, kSwap>(at + 9);
+      if (std::max({a, b, c}) >= vertices || !take(a, b, c)) break;
+    }
+    at_ = at;
+    return row;
   }
 
   /// Passes over `count` values.

@@ -67,12 +67,11 @@ void read_binary(std::string_view bytes, const std::string& file, MeshBuilder& b
   const char* at = bytes.data() + kHeaderBytes;
   std::uint32_t vertex = 0;
   for (std::uint64_t i = 0; i < triangles; ++i, at += kTriangleBytes) {
-    builder.begin_polygon();
     for (std::size_t corner = 1; corner <= 3; ++corner) {  // the normal is point 0
       builder.mesh().positions.push_back(load_point(at + corner * kVertexBytes));
-      builder.add_corner(vertex++);
     }
-    builder.end_polygon();
+    builder.add_triangle(vertex, vertex + 1, vertex + 2);
+    vertex += 3;
   }
 }
 
