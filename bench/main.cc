@@ -95,13 +95,11 @@ void print_view(const ViewName& name, const Workload& workload, int threads) {
 }
 
 void print_head(const Options& options) {
+  std::cout << machine_name() << "; " << compiler_name() << "; medians of " << options.rounds << " rounds.\n";
   const std::string peer = embree_version();
-  std::cout << machine_name() << "; " << compiler_name() << "; medians of " << options.rounds << " rounds";
-  if (!peer.empty()) {
-    std::cout << "; " << peer << ". **Bold**: speed as a multiple of `" << kEmbreeBaseline
-              << "` in the same run, for frames of as many of its camera rays; in brackets the figure itself";
-  }
-  std::cout << ".\n";
+  if (peer.empty()) return;
+  std::cout << "In bold the speed as a multiple of `" << kEmbreeBaseline << "` (" << peer
+            << ") in the same run, a frame's as a multiple of its camera rays'; then the figure itself.\n";
 }
 
 void print_tables(const Options& options) {

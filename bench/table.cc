@@ -126,8 +126,8 @@ std::vector<Row> mean(const std::vector<std::vector<Row>>& tables) {
 }
 
 void print_markdown(std::ostream& out, const std::vector<Row>& rows) {
-  out << "| method | SIMD | camera Mrays/s | shadow Mrays/s | diffuse Mrays/s | frame ms | build ms | wrong "
-         "rays |\n|---|---|---|---|---|---|---|---|\n";
+  out << "| method | SIMD | camera Mrays/s | shadow Mrays/s | diffuse Mrays/s | frame ms | build ms | other "
+         "answers |\n|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     out << "| " << row.method << " | " << row.target;
     std::size_t wrong = 0;
