@@ -14,6 +14,15 @@ function(plumb_exact_arithmetic target)
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-tree-slp-vectorize)
 endfunction()
 
+# The instruction sets that kernels are compiled for: all, so that each can be named, compared and timed
+# on one machine, but for those of PLUMB_DISABLED_SIMD.
+function(plumb_simd_targets target)
+  target_compile_definitions(${target} PRIVATE HWY_COMPILE_ALL_ATTAINABLE)
+  if(PLUMB_DISABLED_SIMD)
+    target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(${PLUMB_DISABLED_SIMD})")
+  endif()
+endfunction()
+
 # plumb_library(NAME ARCHIVE SOURCES...): an archive of the library with its alias plumb::NAME.
 function(plumb_library name archive)
   add_library(${archive} STATIC ${ARGN})
@@ -22,8 +31,7 @@ function(plumb_library name archive)
     EXPORT_NAME ${name} OUTPUT_NAME ${archive} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
   target_compile_features(${archive} PUBLIC cxx_std_20)
   target_include_directories(${archive} PRIVATE ${PROJECT_SOURCE_DIR}/lib ${PROJECT_SOURCE_DIR}/raster)
-  # All instruction sets, so that each can be named, compared and timed on one machine.
-  target_compile_definitions(${archive} PRIVATE HWY_COMPILE_ALL_ATTAINABLE)
+  plumb_simd_targets(${archive})
   plumb_warnings(${archive})
   plumb_exact_arithmetic(${archive})
 endfunction()

@@ -176,7 +176,7 @@ HWY_INLINE std::uint32_t BoundNowhere(const Projection& view, const FetchedCorne
                                       ScreenBoxes& boxes) {
   const hn::Rebind<float, SetupTag> df;
   auto total = hn::Zero(df);
-  for (int i = 0; i < 9; ++i) total = hn::MulAdd(hn::Load(df, fetched.corner[i]), hn::Zero(df), total);
+  for (const auto& corner : fetched.corner) total = hn::MulAdd(hn::Load(df, corner), hn::Zero(df), total);
   for (int lane = 0; lane < 8; ++lane) {
     boxes.x0[lane] = boxes.y0[lane] = 0;
     boxes.x1[lane] = view.width - 1;

@@ -190,7 +190,7 @@ HWY_INLINE void PlaceLanes(const SetupCandidates& from, size_t first, SetupLanes
   const SetupVector x = centre_of(from.x0), y = centre_of(from.y0);
   for (int k = 0; k < 4; ++k) {
     const SetupVector a = hn::Load(d, lanes.a[k]), b = hn::Load(d, lanes.b[k]);
-    auto centre = hn::Undefined(df), error = hn::Undefined(df);
+    auto centre = hn::Zero(df), error = hn::Zero(df);
     PlacePlane(d, a, b, hn::Load(d, lanes.c[k]), hn::PromoteTo(d, hn::Load(df, lanes.error[k])), x, y,
                hn::Set(d, kPlaneRelative[k]), hn::Set(d, kPlaneLimit[k]), centre, error);
     hn::Store(RoundToFloat(df, a), df, lanes.tile_a[k]);

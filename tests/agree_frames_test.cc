@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 
@@ -12,8 +10,7 @@
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
 #include "plumb/frame.h"
-#include "support/hard_cameras.h"
-#include "support/hard_scenes.h"
+#include "support/hard_views.h"
 #include "support/oracle_adapter.h"
 
 // Whole frames of small hard scenes, as hard cameras see them, against the oracle's.
@@ -21,60 +18,6 @@
 using namespace plumb;
 
 namespace {
-
-struct View {
-  std::string name;
-  TriangleMesh mesh;
-  Camera camera;
-  Frame expected;
-};
-
-Frame oracle_frame(const TriangleMesh& mesh, const Camera& camera) {
-  const oracle::Frame seen =
-      oracle::render(oracle::Scene(witness::to_oracle(mesh)), witness::to_oracle(camera));
-  Frame frame(camera.width, camera.height);
-  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
-    frame.depth[i] = seen.pixels[i].t;
-    frame.id[i] = seen.pixels[i].id;
-  }
-  return frame;
-}
-
-// Every kind of camera on every kind of scene.
-const std::vector<View>& views() {
-  static const std::vector<View> made = [] {
-    std::vector<View> result;
-    std::uint64_t seed = 0;
-    for (const hard::SceneKind& scene : hard::scene_kinds()) {
-      for (const hard::CameraKind& kind : hard::camera_kinds()) {
-        ++seed;
-        hard::Random random(seed);
-        const TriangleMesh mesh = scene.make(random);
-        const Camera camera = hard::make_camera(kind, seed, mesh);
-        result.push_back(
-            {std::string(scene.name) + " from " + std::string(kind.name) + ", seed " + std::to_string(seed),
-             mesh, camera, oracle_frame(mesh, camera)});
-      }
-    }
-    return result;
-  }();
-  return made;
-}
-
-// What differs in first place, for the message.
-std::string difference(const Comparison& comparison) {
-  if (comparison.equal()) return "none";
-  const PixelDifference& p = comparison.first.front();
-  return std::to_string(comparison.different_pixels) + " pixels, first (" + std::to_string(p.x) + ", " +
-         std::to_string(p.y) + "): " + std::to_string(p.id_a) + " for " + std::to_string(p.id_b);
-}
-
-void check_frame(const Frame& frame, const View& view) {
-  const Comparison comparison = compare(frame, view.expected);
-  INFO(view.name);
-  INFO(difference(comparison));
-  CHECK(comparison.equal());
-}
 
 // A frame whose every pixel must be overwritten.
 Frame dirty_frame(const Camera& camera) {
@@ -88,7 +31,7 @@ Frame dirty_frame(const Camera& camera) {
 
 TEST_SUITE("agree: frames") {
   TEST_CASE("the camera's rays are the oracle's") {
-    for (const View& view : views()) {
+    for (const hard::View& view : hard::views()) {
       CAPTURE(view.name);
       const oracle::Camera camera = witness::to_oracle(view.camera);
       for (int y = -1; y <= view.camera.height; ++y) {
@@ -109,7 +52,7 @@ TEST_SUITE("agree: frames") {
 
   TEST_CASE("the views are worth it: hits, misses and pixels that see nothing") {
     std::size_t hits = 0, pixels = 0;
-    for (const View& view : views()) {
+    for (const hard::View& view : hard::views()) {
       pixels += view.expected.id.size();
       for (const std::uint32_t id : view.expected.id) hits += id != kNone ? 1 : 0;
     }
@@ -121,11 +64,12 @@ TEST_SUITE("agree: frames") {
     // More threads than this machine may have processors.
     const oneapi::tbb::global_control allow(oneapi::tbb::global_control::max_allowed_parallelism, 4);
     CastOptions options;
-    for (const View& view : views()) {
+    for (const hard::View& view : hard::views()) {
       options.threads = options.threads % 4 + 1;
       Frame frame = dirty_frame(view.camera);
       cast(BruteForce(view.mesh), view.camera, frame, options);
-      check_frame(frame, view);
+      CAPTURE(view.name);
+      CHECK(hard::difference(frame, view.expected) == "");
       for (const int width : {2, 4, 8}) {
         CAPTURE(width);
         BuildOptions build;
@@ -133,7 +77,7 @@ TEST_SUITE("agree: frames") {
         build.threads = options.threads;
         Frame cast_frame = dirty_frame(view.camera);
         cast(Bvh(view.mesh, build), view.camera, cast_frame, options);
-        check_frame(cast_frame, view);
+        CHECK(hard::difference(cast_frame, view.expected) == "");
       }
     }
   }

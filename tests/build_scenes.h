@@ -3,33 +3,27 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "plumb/mesh.h"
+#include "support/random.h"
 
-// Seeded scenes for the tests of builders: ordinary ones and troublesome ones. The same on every
-// machine: only the generator's bits are used, no library distribution.
+// Seeded scenes for the tests of builders: ordinary ones and troublesome ones.
 
 namespace build_scenes {
 
 using plumb::TriangleMesh;
 
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : bits_(seed) {}
-  float uniform(float lo, float hi) { return lo + (hi - lo) * (static_cast<float>(bits_() >> 8) * 0x1p-24f); }
-  glm::vec3 point(float lo, float hi) {
-    const float x = uniform(lo, hi);
-    const float y = uniform(lo, hi);
-    return {x, y, uniform(lo, hi)};
-  }
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(bits_() % n); }
+using plumb::hard::Random;
 
- private:
-  std::mt19937 bits_;
-};
+inline float uniform(Random& random, float lo, float hi) {
+  return lo + (hi - lo) * 0.5f * (random.unit() + 1.0f);
+}
+
+inline glm::vec3 point(Random& random, float lo, float hi) {
+  return lo + (hi - lo) * 0.5f * (random.unit3() + 1.0f);
+}
 
 struct Scene {
   std::string name;
@@ -43,24 +37,25 @@ inline void add(TriangleMesh& mesh, const glm::vec3& a, const glm::vec3& b, cons
 }
 
 /// Triangles of about `size` with their first corner in the cube of +-`reach`.
-inline TriangleMesh soup(std::uint32_t count, float reach, float size, std::uint32_t seed) {
+inline TriangleMesh soup(std::uint32_t count, float reach, float size, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const glm::vec3 a = random.point(-reach, reach);
-    const glm::vec3 b = a + random.point(-size, size);
-    add(mesh, a, b, a + random.point(-size, size));
+    const glm::vec3 a = point(random, -reach, reach);
+    const glm::vec3 b = a + point(random, -size, size);
+    add(mesh, a, b, a + point(random, -size, size));
   }
   return mesh;
 }
 
 /// A height field of 2 * n * n triangles with shared vertices.
-inline TriangleMesh grid(std::uint32_t n, float height, std::uint32_t seed) {
+inline TriangleMesh grid(std::uint32_t n, float height, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;
   for (std::uint32_t y = 0; y <= n; ++y) {
     for (std::uint32_t x = 0; x <= n; ++x) {
-      mesh.positions.emplace_back(static_cast<float>(x), random.uniform(0.0f, height), static_cast<float>(y));
+      mesh.positions.emplace_back(static_cast<float>(x), uniform(random, 0.0f, height),
+                                  static_cast<float>(y));
     }
   }
   for (std::uint32_t y = 0; y < n; ++y) {
@@ -74,28 +69,28 @@ inline TriangleMesh grid(std::uint32_t n, float height, std::uint32_t seed) {
 }
 
 /// A small dense ball of triangles inside a vast ring of large ones.
-inline TriangleMesh teapot_in_stadium(std::uint32_t count, std::uint32_t seed) {
+inline TriangleMesh teapot_in_stadium(std::uint32_t count, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < count; ++i) {
     const bool stadium = i % 4 == 0;
-    glm::vec3 a = random.point(-1.0f, 1.0f);
+    glm::vec3 a = point(random, -1.0f, 1.0f);
     if (stadium) a *= 1000.0f / std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
     const float size = stadium ? 40.0f : 0.02f;
-    const glm::vec3 b = a + random.point(-size, size);
-    add(mesh, a, b, a + random.point(-size, size));
+    const glm::vec3 b = a + point(random, -size, size);
+    add(mesh, a, b, a + point(random, -size, size));
   }
   return mesh;
 }
 
 /// Sizes and places over all powers of two: binning peels off a few triangles at a time.
-inline TriangleMesh exponential(std::uint32_t count, std::uint32_t seed) {
+inline TriangleMesh exponential(std::uint32_t count, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < count; ++i) {
     const float scale = std::ldexp(1.0f, static_cast<int>(random.below(240)) - 120);
-    const glm::vec3 a = random.point(0.5f, 1.0f) * scale;
-    add(mesh, a, a + random.point(0.0f, 0.1f) * scale, a + random.point(0.0f, 0.1f) * scale);
+    const glm::vec3 a = point(random, 0.5f, 1.0f) * scale;
+    add(mesh, a, a + point(random, 0.0f, 0.1f) * scale, a + point(random, 0.0f, 0.1f) * scale);
   }
   return mesh;
 }
@@ -117,7 +112,7 @@ inline TriangleMesh repeated(std::uint32_t count) {
   return mesh;
 }
 
-inline void spoil(TriangleMesh& mesh, std::uint32_t seed) {
+inline void spoil(TriangleMesh& mesh, std::uint64_t seed) {
   Random random(seed);
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                        -std::numeric_limits<float>::infinity()};

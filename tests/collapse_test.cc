@@ -13,10 +13,12 @@
 #include "build/tree_check.h"
 #include "build/tree_statistics.h"
 #include "build_scenes.h"
+#include "build_util.h"
 #include "wide/collapse.h"
 
 using namespace plumb;
 using namespace plumb::detail;
+using build_scenes::joined;
 
 namespace {
 
@@ -24,14 +26,7 @@ BinaryTree build(const TriangleMesh& mesh, int max_leaf, int block) {
   BinnedSahOptions options;
   options.max_leaf = max_leaf;
   options.block = block;
-  Progress progress(nullptr, mesh.triangles.size());
-  return build_binned_sah(mesh, options, progress);
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "; ";
-  return text;
+  return build_scenes::build(mesh, options);
 }
 
 template <typename Vector>

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "oracle/oracle.h"
+#include "support/effort.h"
 #include "support/hard_rays.h"
 #include "support/oracle_adapter.h"
 
@@ -30,7 +32,7 @@ oracle::Triangle to_oracle(const detail::Triangle& t) {
 template <typename Check>
 std::size_t for_each_pair(const Check& check) {
   std::size_t pairs = 0;
-  for (const hard::Case& c : hard::make_cases(40, 24)) {
+  for (const hard::Case& c : hard::make_cases(hard::effort(40u), 24)) {
     for (std::size_t i = 0; i < c.rays.size(); ++i) {
       if (!detail::ray_is_valid(c.rays[i])) continue;
       const std::string where = c.describe(i);
@@ -66,11 +68,11 @@ TEST_SUITE("exact") {
           ++(t > 0.0f ? ahead : t < 0.0f ? behind : at_origin);
           subnormal += std::fpclassify(t) == FP_SUBNORMAL ? 1 : 0;
         });
-    CHECK(pairs > 200000);
-    CHECK(ahead > 10000);
-    CHECK(behind > 2000);
-    CHECK(at_origin > 1000);
-    CHECK(subnormal > 10);
+    CHECK(pairs > hard::effort(std::size_t{200000}));
+    CHECK(ahead > hard::effort(std::size_t{10000}));
+    CHECK(behind > hard::effort(std::size_t{2000}));
+    CHECK(at_origin > hard::effort(std::size_t{1000}));
+    CHECK(subnormal > hard::effort(std::size_t{10}));
   }
 
   TEST_CASE("the depth of a line known to hit is the oracle's") {
@@ -85,8 +87,45 @@ TEST_SUITE("exact") {
       CHECK(detail::line_depth(ray.origin, ray.direction, triangle) == *expected);
       ++(std::isfinite(*expected) ? finite : infinite);
     });
-    CHECK(finite > 10000);
-    CHECK(infinite > 100);
+    CHECK(finite > hard::effort(std::size_t{10000}));
+    CHECK(infinite > hard::effort(std::size_t{100}));
+  }
+
+  TEST_CASE("depths at both ends of the floats' range round as all others") {
+    constexpr float kMax = std::numeric_limits<float>::max();
+    constexpr float kInf = std::numeric_limits<float>::infinity();
+    struct Depth {
+      float from, speed, to;  // along z
+      float expected;
+    };
+    // The limit of infinity is 2^128 - 2^103; the greatest float is 2^128 - 2^104.
+    const std::vector<Depth> depths = {
+        {0, 1, kMax, kMax},
+        {-0x1p102f, 1, kMax, kMax},
+        {-0x1.fffffep102f, 1, kMax, kMax},
+        {-0x1p103f, 1, kMax, kInf},
+        {-0x1p103f, -1, kMax, -kInf},
+        {-0x1.fffffep102f, -1, kMax, -kMax},
+        {0, 0x1p-149f, 1, kInf},
+        {0, 0x1p100f, 0x1p-49f, 0x1p-149f},
+        {0, 0x1p100f, 0x1.8p-49f, 0x1p-148f},
+        {0, 0x1p100f, 0x1.4p-48f, 0x1p-148f},
+        {0, 0x1p100f, 0x1p-50f, 0},
+        {0, 0x1p100f, 0x1.000002p-50f, 0x1p-149f},
+        {0, 0x1p100f, 0x1.fffffep-27f, 0x1p-126f},
+        {0, -0x1p100f, 0x1.8p-49f, -0x1p-148f},
+    };
+    for (const Depth& depth : depths) {
+      CAPTURE(depth.from);
+      CAPTURE(depth.speed);
+      CAPTURE(depth.to);
+      const glm::vec3 origin(0, 0, depth.from), direction(0, 0, depth.speed);
+      const detail::Triangle triangle{{-1, -1, depth.to}, {3, -1, depth.to}, {-1, 3, depth.to}};
+      float t = -7.0f;
+      CHECK(detail::line_hit(origin, direction, triangle, t) == std::isfinite(depth.expected));
+      if (std::isfinite(depth.expected)) CHECK(t == depth.expected);
+      CHECK(detail::line_depth(origin, direction, triangle) == depth.expected);
+    }
   }
 
   TEST_CASE("rays and triangles are valid where the oracle says so") {

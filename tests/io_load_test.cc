@@ -1,5 +1,4 @@
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <array>
 #include <sstream>
@@ -7,6 +6,7 @@
 
 #include "base/fp_mode.h"
 #include "io_util.h"
+#include "mesh_files.h"
 #include "plumb/io.h"
 #include "ply_util.h"
 
@@ -16,10 +16,6 @@ using namespace plumb::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string error_of_loading(const fs::path& path) {
-  return error_of([&] { load_mesh(path); });
-}
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kAddressSanitizer = true;
@@ -72,6 +68,14 @@ TEST_SUITE("load_mesh") {
       CHECK(report.faces == 1);
       CHECK(report.triangles == 1);
     }
+    for (const char* name : {"a.off", "A.OFF"}) {
+      CHECK(load_mesh(dir.write(name, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 0\n")).triangles ==
+            std::vector<glm::uvec3>{{2, 1, 0}});
+    }
+    for (const char* name : {"a.stl", "A.STL"}) {
+      CHECK(load_mesh(dir.write(name, make_stl_binary({{{1, 2, 3}}, {{0, 0, 0}}}))).positions ==
+            std::vector<glm::vec3>(3, {1, 2, 3}));
+    }
   }
 
   TEST_CASE("what is no mesh file is refused by name") {
@@ -86,8 +90,10 @@ TEST_SUITE("load_mesh") {
     CHECK(contains(error_of_loading("/dev/null"), "/dev/null: is not a regular file"));
     CHECK(contains(error_of_loading(dir.write("empty.ply", "")), "empty.ply: the file is empty"));
     CHECK(contains(error_of_loading(dir.write("empty.obj", "")), "empty.obj: the file is empty"));
+    CHECK(contains(error_of_loading(dir.write("empty.stl", "")), "empty.stl: the file is empty"));
+    CHECK(contains(error_of_loading(dir.write("empty.off", "")), "empty.off: the file is empty"));
     CHECK(contains(error_of_loading(dir.write("a.xyz", "v 0 0 0\n")),
-                   "a.xyz: the extension \".xyz\" names no mesh format; known: .ply, .obj"));
+                   "a.xyz: the extension \".xyz\" names no mesh format; known: .ply, .obj, .stl, .off"));
     CHECK(contains(error_of_loading(dir.write("ply", "ply\n")), "the extension \"\" names no mesh format"));
   }
 
@@ -100,13 +106,8 @@ TEST_SUITE("load_mesh") {
   TEST_CASE("a file that may not be read is refused") {
     const TempDir dir;
     const fs::path path = dir.write("secret.ply", "ply\n");
-    fs::permissions(path, fs::perms::none);
-    fs::permissions(dir.path(), fs::perms::all);
-    const bool root = geteuid() == 0;
-    if (root) REQUIRE(seteuid(65534) == 0);  // nobody: root may read anything
-    const std::string error = error_of_loading(path);
-    if (root) REQUIRE(seteuid(0) == 0);
-    CHECK(contains(error, "secret.ply: cannot be opened: Permission denied"));
+    CHECK(
+        contains(error_of_loading_unreadable(dir, path), "secret.ply: cannot be opened: Permission denied"));
   }
 
   TEST_CASE("a file larger than memory is refused") {
@@ -131,6 +132,12 @@ TEST_SUITE("load_mesh") {
       paths.push_back(dir.write(format + ".ply", make_ply(format, vertices, {}, {"double", "uchar", "int"})));
     }
     paths.push_back(dir.write("a.obj", "v 1e-40 0.1 1.000000059604644775390625\nv -1e-45 16777217 1e-310\n"));
+    paths.push_back(
+        dir.write("a.off", "OFF 2 0\n1e-40 0.1 1.000000059604644775390625\n-1e-45 16777217 1e-310\n"));
+    paths.push_back(dir.write("a.stl",
+                              "solid\nfacet normal 0 0 1e-40 outer loop\nvertex 1e-40 0.1 "
+                              "1.000000059604644775390625\nvertex -1e-45 16777217 1e-310\nvertex 0 0 0\n"
+                              "endloop endfacet endsolid"));
     const detail::FpMode saved = detail::fp_mode();
     for (const detail::FpMode mode :
          {0x8040u, 0x2000u, 0x4000u, 0x6000u}) {  // FTZ and DAZ; down; up; to zero
@@ -163,6 +170,23 @@ TEST_SUITE("load_mesh") {
       CHECK(mesh.positions.size() == scene.vertices);
       CHECK(report.faces == scene.triangles);
       CHECK(report.unseen_triangles == (scene.name == "near_ties" ? 2 : 0));
+    }
+  }
+
+  TEST_CASE("the shared scenes are the same as OFF and, with a vertex for every corner, as STL") {
+    const fs::path folder = fs::path(PLUMB_SHARED_DIR) / "scenes";
+    if (!fs::exists(folder / "README.md")) {
+      MESSAGE("skipped: no scenes in " << folder.string());
+      return;
+    }
+    const TempDir dir;
+    for (const Scene& scene : scenes_of(folder / "README.md")) {
+      CAPTURE(scene.name);
+      const TriangleMesh mesh = load_mesh(folder / (scene.name + ".ply"));
+      CHECK(same_mesh(load_mesh(dir.write("a.off", make_off(mesh))), mesh));
+      const TriangleMesh corners = separate_corners(mesh);
+      CHECK(same_mesh(load_mesh(dir.write("text.stl", make_stl_text(mesh))), corners));
+      CHECK(same_mesh(load_mesh(dir.write("binary.stl", make_stl_binary(mesh))), corners));
     }
   }
 }

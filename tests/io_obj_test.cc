@@ -101,58 +101,50 @@ TEST_SUITE("obj") {
 
 TEST_SUITE("obj errors") {
   TEST_CASE("what is wrong is refused with its line") {
-    struct Case {
-      std::string text, line, reason;
-    };
-    const std::vector<Case> cases = {
-        {"v 1 2\n", "line 1", "found 2 numbers"},
-        {"v\n", "line 1", "found 0 numbers"},
-        {"v 1 2 3 4 5\n", "line 1", "found 5 numbers"},
-        {"v 1 2 3 4 5 6 7 8 9\n", "line 1", "found 9 numbers"},
-        {kThree + "v 1 2 z\n", "line 4", "expected a number, found \"z\""},
-        {kThree + "v 1 2 3z\n", "line 4", "expected a number, found \"3z\""},
-        {kThree + "v 1 2 3 red\n", "line 4", "expected a number, found \"red\""},
-        {kThree + "v 1,2 3 4\n", "line 4", "expected a number, found \"1,2\""},
-        {kThree + "v 1 \\\n 2 \\\n x\n", "line 6", "expected a number, found \"x\""},
-        {kThree + "v 1 \\ \n2 3\n", "line 4", "expected a number, found \"\\\""},
-        {kThree + "f 1 2\n", "line 4", "3 corners or more, this one has 2"},
-        {kThree + "f 1 2\\\n\n", "line 4", "3 corners or more, this one has 2"},
-        {kThree + "f\n", "line 4", "3 corners or more, this one has 0"},
-        {kThree + "f 0 1 2\n", "line 4", "vertex index 0"},
-        {kThree + "f 1 2 -4\n", "line 4", "vertex index -4 is out of range; 3 vertices come before the face"},
-        {"f 1 2 -1\n" + kThree, "line 1", "vertex index -1 is out of range"},
-        {kThree + "f 1 2 4\n", "line 4", "refers to vertex 4, but the file has only 3"},
-        {"f 1 2 4\nf 3 2 9\nf 9 1 5\n" + kThree + "v 1 1 1\n", "line 2",
-         "refers to vertex 9, but the file has only 4"},
-        {kThree + "f 1 2 4294967296\n", "line 4", "vertex index 4294967296 is out of range"},
-        {kThree + "f 1 2 99999999999999999999\n", "line 4", "expected a corner"},
-        {kThree + "f 1 2 3.5\n", "line 4",
-         "expected a corner v, v/vt, v//vn or v/vt/vn of integers, found \"3.5\""},
-        {kThree + "f 1 2 +3\n", "line 4", "found \"+3\""},
-        {kThree + "f 1 2 3/\n", "line 4", "found \"3/\""},
-        {kThree + "f 1 2 3//\n", "line 4", "found \"3//\""},
-        {kThree + "f 1 2 3/1/\n", "line 4", "found \"3/1/\""},
-        {kThree + "f 1 2 3/x/1\n", "line 4", "found \"3/x/1\""},
-        {kThree + "f 1 2 3/1/1/1\n", "line 4", "found \"3/1/1/1\""},
-        {kThree + "f 1 2 /1\n", "line 4", "found \"/1\""},
-        {kThree + "f 1 2 three\n", "line 4", "found \"three\""},
-        {kThree + "face 1 2 3\n", "line 4", "unknown statement \"face\""},
-        {kThree + "surf 0 1 0 1 1 2 3 4\n", "line 4",
-         "unknown statement \"surf\"; only polygons (v, f) are read"},
-        {kThree + "V 1 2 3\n", "line 4", "unknown statement \"V\""},
-        {"g a \\\n b\nx\n", "line 3", "unknown statement \"x\""},
-        {"v 1 2 3\r\n# c\r\nv 1 2\r\n", "line 3", "found 2 numbers"},
-        {"v 1 2 3\r# c\rv 1 2\r", "line 3", "found 2 numbers"},
-        {"a\r\r\nb\n", "line 1", "unknown statement \"a\""},
-        {std::string("v 1 2 3\n\0\n", 10), "line 2", "unknown statement \"\\x00\""},
-    };
-    for (const Case& c : cases) {
-      const std::string error = error_of_reading("bad.obj", c.text);
-      CAPTURE(c.text);
-      CAPTURE(error);
-      CHECK(error.starts_with("bad.obj: " + c.line + ": "));
-      CHECK(contains(error, c.reason));
-    }
+    check_cases("bad.obj",
+                {
+                    {"v 1 2\n", "line 1: ", "found 2 numbers"},
+                    {"v\n", "line 1: ", "found 0 numbers"},
+                    {"v 1 2 3 4 5\n", "line 1: ", "found 5 numbers"},
+                    {"v 1 2 3 4 5 6 7 8 9\n", "line 1: ", "found 9 numbers"},
+                    {kThree + "v 1 2 z\n", "line 4: ", "expected a number, found \"z\""},
+                    {kThree + "v 1 2 3z\n", "line 4: ", "expected a number, found \"3z\""},
+                    {kThree + "v 1 2 3 red\n", "line 4: ", "expected a number, found \"red\""},
+                    {kThree + "v 1,2 3 4\n", "line 4: ", "expected a number, found \"1,2\""},
+                    {kThree + "v 1 \\\n 2 \\\n x\n", "line 6: ", "expected a number, found \"x\""},
+                    {kThree + "v 1 \\ \n2 3\n", "line 4: ", "expected a number, found \"\\\""},
+                    {kThree + "f 1 2\n", "line 4: ", "3 corners or more, this one has 2"},
+                    {kThree + "f 1 2\\\n\n", "line 4: ", "3 corners or more, this one has 2"},
+                    {kThree + "f\n", "line 4: ", "3 corners or more, this one has 0"},
+                    {kThree + "f 0 1 2\n", "line 4: ", "vertex index 0"},
+                    {kThree + "f 1 2 -4\n",
+                     "line 4: ", "vertex index -4 is out of range; 3 vertices come before the face"},
+                    {"f 1 2 -1\n" + kThree, "line 1: ", "vertex index -1 is out of range"},
+                    {kThree + "f 1 2 4\n", "line 4: ", "refers to vertex 4, but the file has only 3"},
+                    {"f 1 2 4\nf 3 2 9\nf 9 1 5\n" + kThree + "v 1 1 1\n",
+                     "line 2: ", "refers to vertex 9, but the file has only 4"},
+                    {kThree + "f 1 2 4294967296\n", "line 4: ", "vertex index 4294967296 is out of range"},
+                    {kThree + "f 1 2 99999999999999999999\n", "line 4: ", "expected a corner"},
+                    {kThree + "f 1 2 3.5\n",
+                     "line 4: ", "expected a corner v, v/vt, v//vn or v/vt/vn of integers, found \"3.5\""},
+                    {kThree + "f 1 2 +3\n", "line 4: ", "found \"+3\""},
+                    {kThree + "f 1 2 3/\n", "line 4: ", "found \"3/\""},
+                    {kThree + "f 1 2 3//\n", "line 4: ", "found \"3//\""},
+                    {kThree + "f 1 2 3/1/\n", "line 4: ", "found \"3/1/\""},
+                    {kThree + "f 1 2 3/x/1\n", "line 4: ", "found \"3/x/1\""},
+                    {kThree + "f 1 2 3/1/1/1\n", "line 4: ", "found \"3/1/1/1\""},
+                    {kThree + "f 1 2 /1\n", "line 4: ", "found \"/1\""},
+                    {kThree + "f 1 2 three\n", "line 4: ", "found \"three\""},
+                    {kThree + "face 1 2 3\n", "line 4: ", "unknown statement \"face\""},
+                    {kThree + "surf 0 1 0 1 1 2 3 4\n",
+                     "line 4: ", "unknown statement \"surf\"; only polygons (v, f) are read"},
+                    {kThree + "V 1 2 3\n", "line 4: ", "unknown statement \"V\""},
+                    {"g a \\\n b\nx\n", "line 3: ", "unknown statement \"x\""},
+                    {"v 1 2 3\r\n# c\r\nv 1 2\r\n", "line 3: ", "found 2 numbers"},
+                    {"v 1 2 3\r# c\rv 1 2\r", "line 3: ", "found 2 numbers"},
+                    {"a\r\r\nb\n", "line 1: ", "unknown statement \"a\""},
+                    {std::string("v 1 2 3\n\0\n", 10), "line 2: ", "unknown statement \"\\x00\""},
+                });
   }
 
   TEST_CASE("more triangles or vertices than there are ids are refused") {

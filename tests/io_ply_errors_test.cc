@@ -17,19 +17,7 @@ std::string three_and(const std::string& face) {
                face);
 }
 
-struct Case {
-  std::string bytes, place, reason;
-};
-
-void check_cases(const std::vector<Case>& cases) {
-  for (const Case& c : cases) {
-    const std::string error = error_of_reading("bad.ply", c.bytes);
-    CAPTURE(c.bytes);
-    CAPTURE(error);
-    CHECK(error.starts_with("bad.ply: " + c.place));
-    CHECK(contains(error, c.reason));
-  }
-}
+void check_cases(const std::vector<Case>& cases) { test::check_cases("bad.ply", cases); }
 
 }  // namespace
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <doctest/doctest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,11 +13,15 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/mesh_builder.h"
 #include "io/obj.h"
+#include "io/off.h"
 #include "io/ply.h"
+#include "io/stl.h"
 #include "plumb/error.h"
+#include "plumb/io.h"
 
 // What the tests of the mesh readers share: making files, reading them, and what an error said.
 
@@ -59,7 +65,10 @@ inline Loaded read_exact(const std::string& file, std::string_view bytes,
   const auto copy = std::make_unique<char[]>(bytes.size());
   std::copy(bytes.begin(), bytes.end(), copy.get());
   Loaded loaded;
-  const auto reader = file.ends_with(".ply") ? detail::read_ply : detail::read_obj;
+  const auto reader = file.ends_with(".ply")   ? detail::read_ply
+                      : file.ends_with(".obj") ? detail::read_obj
+                      : file.ends_with(".stl") ? detail::read_stl
+                                               : detail::read_off;
   loaded.mesh = reader({copy.get(), bytes.size()}, file, loaded.report, limits);
   return loaded;
 }
@@ -80,8 +89,39 @@ inline std::string error_of_reading(const std::string& file, std::string_view by
   return error_of([&] { read_exact(file, bytes, limits); });
 }
 
+/// What load_mesh says of a file.
+inline std::string error_of_loading(const std::filesystem::path& path) {
+  return error_of([&] { load_mesh(path); });
+}
+
+/// What load_mesh says of a file in the folder that may not be read.
+inline std::string error_of_loading_unreadable(const TempDir& dir, const std::filesystem::path& path) {
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  std::filesystem::permissions(dir.path(), std::filesystem::perms::all);
+  const bool root = geteuid() == 0;  // root may read anything, nobody may not
+  if (root && seteuid(65534) != 0) throw std::runtime_error("seteuid");
+  std::string error = error_of_loading(path);
+  if (root && seteuid(0) != 0) throw std::runtime_error("seteuid");
+  return error;
+}
+
+/// A file and what must be said of it.
+struct Case {
+  std::string bytes, place, reason;
+};
+
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+inline void check_cases(const std::string& file, const std::vector<Case>& cases) {
+  for (const Case& c : cases) {
+    const std::string error = error_of_reading(file, c.bytes);
+    CAPTURE(c.bytes);
+    CAPTURE(error);
+    CHECK(error.starts_with(file + ": " + c.place));
+    CHECK(contains(error, c.reason));
+  }
 }
 
 inline bool same_bits(float a, float b) {

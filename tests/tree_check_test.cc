@@ -13,10 +13,12 @@
 #include "build/binned_sah.h"
 #include "build/tree_statistics.h"
 #include "build_scenes.h"
+#include "build_util.h"
 #include "wide/collapse.h"
 
 using namespace plumb;
 using namespace plumb::detail;
+using build_scenes::joined;
 
 namespace {
 
@@ -34,14 +36,7 @@ BinaryTree build(const TriangleMesh& mesh) {
   options.max_leaf = kMaxLeaf;
   options.block = 4;
   options.node_cost = 2.0f;  // so that some leaves take two blocks
-  Progress progress(nullptr, mesh.triangles.size());
-  return build_binned_sah(mesh, options, progress);
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "; ";
-  return text;
+  return build_scenes::build(mesh, options);
 }
 
 std::uint32_t first_not_finite(const TriangleMesh& mesh) {

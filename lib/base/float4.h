@@ -15,6 +15,7 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 inline Float4 splat(float value) { return Float4{value, value, value, value}; }
 inline Int4 splat(std::int32_t value) { return Int4{value, value, value, value}; }
 
+/// The second where either is NaN.
 inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }
 inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
 

@@ -78,7 +78,9 @@ bool Progress::add(std::size_t steps) {
   if (done < s.next.load(std::memory_order_relaxed)) return !s.cancelled.load(std::memory_order_relaxed);
   // Whoever comes while another thread reports just goes on working.
   const std::unique_lock lock(s.mutex, std::try_to_lock);
-  if (lock && !s.cancelled.load(std::memory_order_relaxed)) {
+  // Nor does one whose news are older than what was reported since it counted: shares rise.
+  if (lock && done >= s.next.load(std::memory_order_relaxed) &&
+      !s.cancelled.load(std::memory_order_relaxed)) {
     s.next.store(done + s.step, std::memory_order_relaxed);
     const double share = static_cast<double>(done) / static_cast<double>(s.total);
     if (!s.callback(share < 1.0 ? share : 1.0)) s.cancelled.store(true, std::memory_order_relaxed);

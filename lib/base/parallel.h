@@ -17,7 +17,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 /// inside it keep to that many. The calling thread takes part.
 void in_arena(int threads, const std::function<void()>& work);
 
-/// Reports the share done of `total` steps to a callback, never from two threads at once, and
+/// Reports the share done of `total` steps to a callback, rising, never from two threads at once, and
 /// remembers when it asked to stop. `add` may be called from many threads; once it returned false
 /// the work should end and the owner throw Cancelled.
 class Progress {

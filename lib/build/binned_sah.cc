@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstddef>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +14,6 @@
 #include "build/sah_bins.h"
 #include "build/tree_parts.h"
 #include "build/triangle_refs.h"
-#include "plumb/error.h"
 
 // References to the triangles lie in two buffers; a split copies a range of one to the same range of
 // the other, keeping the order on both sides. So the tree depends on neither threads nor pieces:
@@ -61,10 +58,7 @@ class Builder {
   BinaryTree run();
 
  private:
-  std::size_t blocks(const Range& range) const;
-  bool may_be_leaf(const Range& range) const;
   bool leaf_is_cheapest(const Range& range, const SahSplit& split) const;
-  bool is_too_deep_for_sah(const Range& range) const;
   int bin_count(const Range& range) const;
 
   Range whole() const;
@@ -79,6 +73,7 @@ class Builder {
   BinaryNode make_leaf(const Range& range);
 
   const BinnedSahOptions& options_;
+  const SahRules rules_;
   Progress& progress_;
   TriangleRefs refs_;
   std::unique_ptr<TriangleRef[]> other_;
@@ -90,6 +85,7 @@ class Builder {
 
 Builder::Builder(const BinnedSahOptions& options, Progress& progress, MeshView mesh)
     : options_(options),
+      rules_(options, "BinnedSahOptions"),
       progress_(progress),
       refs_(make_triangle_refs(mesh)),
       other_(std::make_unique_for_overwrite<TriangleRef[]>(refs_.count)),
@@ -101,31 +97,11 @@ Builder::Builder(const BinnedSahOptions& options, Progress& progress, MeshView m
 
 // --- Whether and where to split ---
 
-std::size_t Builder::blocks(const Range& range) const {
-  const auto block = static_cast<std::size_t>(options_.block);
-  return (range.size() + block - 1) >> std::countr_zero(block);
-}
-
-bool Builder::may_be_leaf(const Range& range) const {
-  return range.size() <= static_cast<std::size_t>(options_.max_leaf);
-}
-
 // Costs are as in Wald 2007, times the area of the range's box.
 bool Builder::leaf_is_cheapest(const Range& range, const SahSplit& split) const {
   const float area = half_area(range.box, unit_);
-  const float leaf = options_.triangle_cost * static_cast<float>(blocks(range)) * area;
+  const float leaf = options_.triangle_cost * static_cast<float>(rules_.blocks(range.size())) * area;
   return split.axis < 0 || leaf <= options_.node_cost * area + options_.triangle_cost * split.cost;
-}
-
-// Halving by index needs bit_width(units - 1) more levels to come to leaves of one unit. A SAH split
-// may peel off only one triangle, so it must leave its halves that many.
-std::size_t index_unit(const BinnedSahOptions& options) {
-  return static_cast<std::size_t>(std::min(options.block, options.max_leaf));
-}
-
-bool Builder::is_too_deep_for_sah(const Range& range) const {
-  const std::size_t units = (range.size() + index_unit(options_) - 1) / index_unit(options_);
-  return range.depth + 1 + static_cast<int>(std::bit_width(units - 1)) > options_.max_depth;
 }
 
 // Small ranges have no use for many bins: to search them would take longer than to fill them.
@@ -136,16 +112,12 @@ int Builder::bin_count(const Range& range) const {
 
 // False if the range shall be a leaf.
 bool Builder::split(const Range& range, Range halves[2], Scratch& scratch) const {
-  const bool leaf_allowed = may_be_leaf(range);
-  // A split costs the test of its node at least, so a leaf that costs no more needs no search.
-  if (leaf_allowed && options_.triangle_cost * static_cast<float>(blocks(range)) <= options_.node_cost)
-    return false;
-  if (range.size() == 1) return false;
-  SahSplit best;
-  if (!is_too_deep_for_sah(range)) {
+  if (rules_.is_leaf_unsearched(range.size())) return false;
+  const bool leaf_allowed = rules_.may_be_leaf(range.size());
+  if (!rules_.must_be_halved(range.size(), range.depth)) {
     const BinMap map(range.centres, refs_.unit, bin_count(range));
     const SahBins& bins = fill_bins(range, map, scratch);
-    best = bins.best_split(unit_, std::countr_zero(static_cast<unsigned>(options_.block)));
+    const SahSplit best = bins.best_split(unit_, rules_.block_shift());
     if (best.axis >= 0 && !(leaf_allowed && leaf_is_cheapest(range, best))) {
       bins.boxes(best, halves[0].box, halves[1].box);
       move_halves(range, map, best, halves, scratch);
@@ -198,12 +170,10 @@ void Builder::move_halves(const Range& range, const BinMap& map, const SahSplit&
   }
 }
 
-// Halves the range where it lies, the left half in whole units.
+// Halves the range where it lies.
 void Builder::split_by_index(const Range& range, Range halves[2]) const {
-  const std::size_t unit = index_unit(options_);
-  const std::size_t units = (range.size() + unit - 1) / unit;
   halves[0].begin = range.begin;
-  halves[0].end = halves[1].begin = range.begin + (units + 1) / 2 * unit;
+  halves[0].end = halves[1].begin = range.begin + rules_.left_half(range.size());
   halves[1].end = range.end;
   for (int side = 0; side < 2; ++side) {
     Range& half = halves[side];
@@ -293,29 +263,12 @@ BinaryTree Builder::run() {
   return tree;
 }
 
-void require(bool holds, const char* name, double value, const char* range) {
-  if (holds) return;
-  std::string text = std::to_string(value);
-  throw Error("plumb: BinnedSahOptions::" + std::string(name) + " is " + text + "; it must be " + range);
-}
-
-void check_options(const BinnedSahOptions& options) {
-  const auto single_bit = [](int value) { return std::has_single_bit(static_cast<unsigned>(value)); };
-  require(options.bins >= 8 && options.bins <= kMaxBins, "bins", options.bins, "8 to 32");
-  require(options.max_leaf >= 1 && options.max_leaf <= 255, "max_leaf", options.max_leaf, "1 to 255");
-  require(options.block >= 1 && options.block <= 256 && single_bit(options.block), "block", options.block,
-          "a power of two, 1 to 256");
-  require(options.max_depth >= 1 && options.max_depth <= kMaxTreeDepth, "max_depth", options.max_depth,
-          "1 to kMaxTreeDepth");
-  require(options.node_cost >= 0 && options.node_cost <= 1e6f, "node_cost", options.node_cost, "0 to 1e6");
-  require(options.triangle_cost >= 0 && options.triangle_cost <= 1e6f, "triangle_cost", options.triangle_cost,
-          "0 to 1e6");
-}
-
 }  // namespace
 
 BinaryTree build_binned_sah(MeshView mesh, const BinnedSahOptions& options, Progress& progress) {
-  check_options(options);
+  require_option(options.bins >= 8 && options.bins <= kMaxBins, "BinnedSahOptions", "bins", options.bins,
+                 "8 to 32");
+  require_tree_size(mesh.triangles.size());
   BinaryTree tree;
   in_arena(options.threads, [&] {
     const DefaultFpMode guard;

@@ -2,24 +2,20 @@
 
 #include "base/parallel.h"
 #include "build/binary_tree.h"
+#include "build/sah_rules.h"
 #include "plumb/mesh.h"
 
 namespace plumb::detail {
 
-struct BinnedSahOptions {
-  int bins = 32;               ///< per axis, 8 to 32; small nodes take fewer
-  int max_leaf = 8;            ///< most triangles in a leaf, 1 to 255
-  float node_cost = 1.0f;      ///< of testing a node's box pair, against...
-  float triangle_cost = 1.0f;  ///< ...a block of `block` triangles
-  int block = 1;               ///< triangles that one leaf test takes at once (SIMD lanes), a power of two
-  /// Most nodes on a path, if halving alone can keep to it.
-  int max_depth = kMaxTreeDepth;
+struct BinnedSahOptions : SahOptions {
+  int bins = 32;  ///< per axis, 8 to 32; small nodes take fewer
   int threads = 0;
 };
 
 /// Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies": the surface area
 /// heuristic over bins of centroids. The indices must have been checked. Throws Cancelled through
-/// `progress`, which is given the triangles done.
+/// `progress`, which is given the triangles done, and Error for options out of range and meshes of 2^31
+/// triangles or more.
 ///
 /// A range that is too large for a leaf and has no split, for all its boxes have one centre, is halved by
 /// index; so is one whose path would otherwise exceed `max_depth`. So the time is bounded by

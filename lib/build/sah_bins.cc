@@ -1,6 +1,7 @@
 #include "build/sah_bins.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace plumb::detail {
@@ -124,19 +125,23 @@ void partition(const TriangleRef* refs, std::size_t count, const BinMap& map, co
                TriangleRef* left, TriangleRef* right, Box4 centres[2]) {
   Box4 left_centres;
   Box4 right_centres;
+  const std::ptrdiff_t right_from_left = right - left;
+  std::ptrdiff_t left_count = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleRef ref = refs[i];
     const Float4 centre = doubled_centre(ref, map.unit());
-    const std::int32_t to_right = map.bin(centre)[split.axis] >= split.bin ? -1 : 0;
-    // Without branches: they would be mispredicted half of the time.
-    TriangleRef* const to = to_right != 0 ? right : left;
-    *to = ref;
-    left += 1 + to_right;
-    right -= to_right;
+    // By arithmetic on a mask, ones for the right side: a branch would be mispredicted half of the time, and
+    // compilers make one of a choice.
+    const std::int32_t to_right = (split.bin - 1 - map.bin(centre)[split.axis]) >> 31;
+    const std::ptrdiff_t right_count = static_cast<std::ptrdiff_t>(i) - left_count;
+    left[left_count + (to_right & (right_from_left + right_count - left_count))] = ref;
+    left_count += 1 + to_right;
+    // A mask of ones makes the centre NaN, which Box4::add leaves out.
     const Int4 mask = splat(to_right);
-    const Box4 empty;
-    left_centres.add(select(mask, empty.lo, centre), select(mask, empty.hi, centre));
-    right_centres.add(select(mask, centre, empty.lo), select(mask, centre, empty.hi));
+    const Float4 left_centre = std::bit_cast<Float4>(std::bit_cast<Int4>(centre) | mask);
+    const Float4 right_centre = std::bit_cast<Float4>(std::bit_cast<Int4>(centre) | ~mask);
+    left_centres.add(left_centre, left_centre);
+    right_centres.add(right_centre, right_centre);
   }
   centres[0] = left_centres;
   centres[1] = right_centres;

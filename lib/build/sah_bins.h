@@ -68,7 +68,7 @@ class SahBins {
 float half_area(const Box4& box, Float4 unit);
 
 /// Copies the triangles to `left` and `right` by the split, keeping their order, and sets the box of each
-/// side's doubled centres. Both must not overlap `refs`.
+/// side's doubled centres. Both lie in one array, apart from `refs`.
 void partition(const TriangleRef* refs, std::size_t count, const BinMap& map, const SahSplit& split,
                TriangleRef* left, TriangleRef* right, Box4 centres[2]);
 

@@ -20,9 +20,10 @@ struct Box4 {
   Float4 lo = splat(std::numeric_limits<float>::infinity());
   Float4 hi = splat(-std::numeric_limits<float>::infinity());
 
+  /// NaNs are left out.
   void add(Float4 other_lo, Float4 other_hi) {
-    lo = min(lo, other_lo);
-    hi = max(hi, other_hi);
+    lo = min(other_lo, lo);
+    hi = max(other_hi, hi);
   }
   void add(const Box4& other) { add(other.lo, other.hi); }
   Box box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }

@@ -9,8 +9,11 @@
 #include <system_error>
 
 #include "base/fp_mode.h"
+#include "io/memory.h"
 #include "io/obj.h"
+#include "io/off.h"
 #include "io/ply.h"
+#include "io/stl.h"
 #include "plumb/error.h"
 #include "plumb/io.h"
 
@@ -27,7 +30,10 @@ struct Format {
   Reader reader;
 };
 
-constexpr std::array<Format, 2> kFormats = {{{".ply", detail::read_ply}, {".obj", detail::read_obj}}};
+constexpr std::array<Format, 4> kFormats = {{{".ply", detail::read_ply},
+                                             {".obj", detail::read_obj},
+                                             {".stl", detail::read_stl},
+                                             {".off", detail::read_off}}};
 
 Reader reader_for(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -69,6 +75,7 @@ Bytes read_file(const fs::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), std::fclose);
   if (file == nullptr) throw Error(name + ": cannot be opened: " + system_message());
   Bytes bytes{std::make_unique_for_overwrite<char[]>(size), static_cast<std::size_t>(size)};
+  detail::expect_writes(bytes.data.get(), bytes.size);
   if (std::fread(bytes.data.get(), 1, bytes.size, file.get()) != bytes.size) {
     throw Error(name + ": cannot be read to its end: " +
                 (std::ferror(file.get()) != 0 ? system_message() : "it became shorter meanwhile"));

@@ -2,12 +2,21 @@
 
 #include <cmath>
 
+#include "io/memory.h"
+
 namespace plumb::detail {
 namespace {
 
 bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 }  // namespace
+
+void MeshBuilder::reserve(std::uint64_t vertices, std::uint64_t triangles) {
+  mesh_.positions.reserve(vertices);
+  mesh_.triangles.reserve(triangles);
+  expect_writes(mesh_.positions.data(), vertices * sizeof(glm::vec3));
+  expect_writes(mesh_.triangles.data(), triangles * sizeof(glm::uvec3));
+}
 
 MeshReport MeshBuilder::report() const {
   MeshReport report;

@@ -23,6 +23,9 @@ class MeshBuilder {
   const MeshLimits& limits() const { return limits_; }
   TriangleMesh& mesh() { return mesh_; }
 
+  /// Makes room for a mesh whose counts are known to fit the file.
+  void reserve(std::uint64_t vertices, std::uint64_t triangles);
+
   void begin_polygon() { corners_ = 0; }
 
   /// Adds a corner v to the polygon v0 v1 ...: from the third on it makes the triangle (v0, last, v).

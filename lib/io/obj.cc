@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/obj_lexer.h"
+#include "io/lexer.h"
 #include "io/text.h"
 
 // The format: Wavefront Technologies, "Advanced Visualizer Manual", appendix B1, "Object Files".
@@ -68,18 +68,14 @@ class ObjReader {
            std::to_string(count) + " numbers");
     }
     if (positions().size() >= builder_.limits().vertices) {
-      fail("more than " + std::to_string(builder_.limits().vertices) + " vertices; split the mesh");
+      fail(too_many("vertices", builder_.limits().vertices));
     }
     positions().emplace_back(numbers[0], numbers[1], numbers[2]);
   }
 
   float read_number() {
     float number = 0.0f;
-    const char* end = parse_float(lexer_.position(), lexer_.end(), number);
-    if (end == nullptr || !lexer_.ends_token(end)) {
-      fail("expected a number, found " + in_quotes(lexer_.peek()));
-    }
-    lexer_.advance(end);
+    if (!lexer_.read(number)) fail("expected a number, found " + in_quotes(lexer_.peek()));
     return number;
   }
 
@@ -88,12 +84,10 @@ class ObjReader {
     builder_.begin_polygon();
     while (lexer_.has_token()) {
       if (!builder_.add_corner(read_corner())) {
-        fail("more than " + std::to_string(builder_.limits().triangles) + " triangles; split the mesh");
+        fail(too_many("triangles", builder_.limits().triangles));
       }
     }
-    if (builder_.corners() < 3) {
-      fail_at(line, "a face needs 3 corners or more, this one has " + std::to_string(builder_.corners()));
-    }
+    if (builder_.corners() < 3) fail_at(line, too_few_corners(builder_.corners()));
     builder_.end_polygon();
   }
 
@@ -137,7 +131,7 @@ class ObjReader {
     return static_cast<std::uint32_t>(vertex - 1);
   }
 
-  ObjLexer lexer_;
+  Lexer<LexerSyntax{.comments = true, .continuations = true}> lexer_;
   const std::string& file_;
   MeshBuilder builder_;
   std::uint64_t forward_index_ = 0;

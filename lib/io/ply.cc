@@ -24,8 +24,7 @@ class BodyReader {
 
   void read() {
     // The header's counts are known to fit the file.
-    builder_.mesh().positions.reserve(header_.vertices);
-    builder_.mesh().triangles.reserve(header_.faces);
+    builder_.reserve(header_.vertices, header_.faces);
     for (const PlyElement& element : header_.elements) {
       if (!element.properties.empty()) read_element(element);
     }
@@ -74,19 +73,16 @@ class BodyReader {
 
   void read_corners(const PlyProperty& property) {
     const std::uint64_t corners = read_length(property);
-    if (corners < 3) source_.fail("a face needs 3 corners or more, this one has " + std::to_string(corners));
+    if (corners < 3) source_.fail(too_few_corners(corners));
     builder_.begin_polygon();
-    for (std::uint64_t i = 0; i < corners; ++i) {
-      const std::int64_t index = source_.integer(property.type, property);
+    source_.integers(corners, property, [&](std::int64_t index) {
       if (index < 0 || static_cast<std::uint64_t>(index) >= header_.vertices) {
-        source_.fail("vertex index " + std::to_string(index) + " is out of range; there are " +
-                     std::to_string(header_.vertices) + " vertices");
+        source_.fail(index_out_of_range(index, header_.vertices));
       }
       if (!builder_.add_corner(static_cast<std::uint32_t>(index))) {
-        source_.fail("more than " + std::to_string(builder_.limits().triangles) +
-                     " triangles; split the mesh");
+        source_.fail(too_many("triangles", builder_.limits().triangles));
       }
-    }
+    });
   }
 
   Source source_;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/ply_header.h"
+#include "io/text.h"
 
 namespace plumb::detail {
 
@@ -19,14 +20,44 @@ class PlyAsciiSource {
         line_(header.lines + 1),
         file_(file) {}
 
-  void begin_row(const PlyElement& element, std::uint64_t row);
-  void end_row();
+  void begin_row(const PlyElement& element, std::uint64_t row) {
+    element_ = &element;
+    row_ = row;
+    while (at_line_end()) {
+      if (at_ == end_) fail("the file ends here; it is cut short or the header claims too much");
+      ++at_;
+      ++line_;
+    }
+  }
+
+  void end_row() {
+    if (!at_line_end()) fail("the line goes on after its last value: " + in_quotes(token()));
+  }
 
   /// The next value, rounded once to the nearest float.
-  float real(const PlyProperty& property);
+  float real(const PlyProperty& property) {
+    if (!is_real(property.type)) return static_cast<float>(integer(property.type, property));
+    begin_value(property);
+    float value = 0.0f;
+    end_value(parse_float(at_, end_, value), property.type, property);
+    return value;
+  }
 
   /// The next value, of an integer type: of the property's entries or of its list's length.
-  std::int64_t integer(PlyType type, const PlyProperty& property);
+  std::int64_t integer(PlyType type, const PlyProperty& property) {
+    begin_value(property);
+    std::int64_t value = 0;
+    const char* value_end = parse_integer(at_, end_, value);
+    if (!holds(type, value)) value_end = nullptr;
+    end_value(value_end, type, property);
+    return value;
+  }
+
+  /// Gives the next `count` entries, of an integer type, to `take`.
+  template <typename Take>
+  void integers(std::uint64_t count, const PlyProperty& property, const Take& take) {
+    for (std::uint64_t i = 0; i < count; ++i) take(integer(property.type, property));
+  }
 
   /// Passes over `count` values, which must be of their type all the same.
   void skip(std::uint64_t count, const PlyProperty& property);
@@ -34,10 +65,28 @@ class PlyAsciiSource {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
-  bool at_line_end();
-  void begin_value(const PlyProperty& property);
-  void end_value(const char* value_end, PlyType type, const PlyProperty& property);
+  // A carriage return is blank here: it belongs to the line feed after it.
+  static bool separates(char c) { return is_blank(c) || c == '\r' || c == '\n'; }
+
+  // Passes over blanks; whether the line, and perhaps the file, ends there.
+  bool at_line_end() {
+    while (at_ != end_ && *at_ != '\n' && separates(*at_)) ++at_;
+    return at_ == end_ || *at_ == '\n';
+  }
+
+  void begin_value(const PlyProperty& property) {
+    if (at_line_end()) fail_at_line_end(property);
+  }
+
+  void end_value(const char* value_end, PlyType type, const PlyProperty& property) {
+    if (value_end == nullptr || (value_end != end_ && !separates(*value_end))) fail_at_value(type, property);
+    at_ = value_end;
+  }
+
+  static bool holds(PlyType type, std::int64_t value);
   std::string_view token() const;
+  [[noreturn]] void fail_at_line_end(const PlyProperty& property) const;
+  [[noreturn]] void fail_at_value(PlyType type, const PlyProperty& property) const;
 
   const char* at_;
   const char* end_;

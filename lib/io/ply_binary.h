@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
+#include "io/binary.h"
 #include "io/ply_header.h"
 #include "io/text.h"
 
@@ -42,20 +39,15 @@ class PlyBinarySource {
 
   /// The next value, of an integer type: of the property's entries or of its list's length.
   std::int64_t integer(PlyType type, const PlyProperty& property) {
-    switch (type) {
-      case PlyType::Int8:
-        return load<std::int8_t>(property);
-      case PlyType::UInt8:
-        return load<std::uint8_t>(property);
-      case PlyType::Int16:
-        return load<std::int16_t>(property);
-      case PlyType::UInt16:
-        return load<std::uint16_t>(property);
-      case PlyType::Int32:
-        return load<std::int32_t>(property);
-      default:
-        return load<std::uint32_t>(property);
-    }
+    std::int64_t result = 0;
+    read_integers(1, type, property, [&](std::int64_t value) { result = value; });
+    return result;
+  }
+
+  /// Gives the next `count` entries, of an integer type, to `take`.
+  template <typename Take>
+  void integers(std::uint64_t count, const PlyProperty& property, const Take& take) {
+    read_integers(count, property.type, property, take);
   }
 
   /// Passes over `count` values.
@@ -77,14 +69,34 @@ class PlyBinarySource {
     fail("the file ends within property " + in_quotes(property.name) + "; it is cut short");
   }
 
+  // The type is asked once for all values.
+  template <typename Take>
+  void read_integers(std::uint64_t count, PlyType type, const PlyProperty& property, const Take& take) {
+    const auto read = [&]<typename T>(T /*type*/) {
+      for (std::uint64_t i = 0; i < count; ++i) take(std::int64_t{load<T>(property)});
+    };
+    switch (type) {
+      case PlyType::Int8:
+        return read(std::int8_t{});
+      case PlyType::UInt8:
+        return read(std::uint8_t{});
+      case PlyType::Int16:
+        return read(std::int16_t{});
+      case PlyType::UInt16:
+        return read(std::uint16_t{});
+      case PlyType::Int32:
+        return read(std::int32_t{});
+      default:
+        return read(std::uint32_t{});
+    }
+  }
+
   template <typename T>
   T load(const PlyProperty& property) {
     if (static_cast<std::size_t>(end_ - at_) < sizeof(T)) fail_short(property);
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at_, sizeof(T));
-    if constexpr (kSwap) std::reverse(bytes.begin(), bytes.end());
+    const T value = load_binary<T, kSwap>(at_);
     at_ += sizeof(T);
-    return std::bit_cast<T>(bytes);
+    return value;
   }
 
   const char* begin_;

@@ -128,7 +128,7 @@ class HeaderReader {
     if (element.name == "vertex") {
       header_.vertices = element.count;
       if (element.count > limits_.vertices) {
-        fail("more than " + std::to_string(limits_.vertices) + " vertices; split the mesh");
+        fail(too_many("vertices", limits_.vertices));
       }
     }
     if (element.name == "face") header_.faces = element.count;
@@ -223,10 +223,7 @@ class HeaderReader {
     for (const PlyElement& element : header_.elements) {
       const std::uint64_t row = least_row_bytes(element);
       if (row != 0 && element.count > left / row) {
-        fail_at(element.line, "element " + in_quotes(element.name) + " claims " +
-                                  std::to_string(element.count) + " rows of at least " + std::to_string(row) +
-                                  " bytes, but only " + std::to_string(left) +
-                                  " bytes are left for it; the file is cut short");
+        fail_at(element.line, cut_short("element " + in_quotes(element.name), element.count, row, left));
       }
       left -= element.count * row;
     }

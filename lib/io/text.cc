@@ -40,6 +40,25 @@ void fail_in_file(const std::string& file, const std::string& place, const std::
   throw Error(file + ": " + place + ": " + reason);
 }
 
+std::string too_few_corners(std::uint64_t corners) {
+  return "a face needs 3 corners or more, this one has " + std::to_string(corners);
+}
+
+std::string too_many(const char* what, std::uint64_t limit) {
+  return "more than " + std::to_string(limit) + " " + what + "; split the mesh";
+}
+
+std::string index_out_of_range(std::int64_t index, std::uint64_t vertices) {
+  return "vertex index " + std::to_string(index) + " is out of range; there are " + std::to_string(vertices) +
+         " vertices";
+}
+
+std::string cut_short(const std::string& what, std::uint64_t claimed, std::uint64_t row_bytes,
+                      std::uint64_t bytes_left) {
+  return what + " claims " + std::to_string(claimed) + " rows of at least " + std::to_string(row_bytes) +
+         " bytes, but only " + std::to_string(bytes_left) + " bytes are left for it; the file is cut short";
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxShown = 40;
   constexpr char kHex[] = "0123456789abcdef";

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-// What the readers of mesh files share: numbers from text, and errors that name file and place.
+// What the readers of mesh files share: numbers from text, and errors that name file, place and reason.
 
 namespace plumb::detail {
 
@@ -14,6 +14,13 @@ namespace plumb::detail {
 
 /// A piece of a file as it may stand in a message: in quotes, unprintable bytes as \xNN, cut when long.
 std::string in_quotes(std::string_view text);
+
+/// Reasons that more than one format has.
+std::string too_few_corners(std::uint64_t corners);
+std::string too_many(const char* what, std::uint64_t limit);
+std::string index_out_of_range(std::int64_t index, std::uint64_t vertices);
+std::string cut_short(const std::string& what, std::uint64_t claimed, std::uint64_t row_bytes,
+                      std::uint64_t bytes_left);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 

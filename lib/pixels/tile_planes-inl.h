@@ -88,7 +88,7 @@ HWY_INLINE void PlaceTriangle(const ScreenTriangle& from, int tile_x, int tile_y
   const auto y = hn::Set(d, tile_y + 0.5 * (kTilePx - 1));
   for (size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
     const auto a = hn::LoadU(d, from.a + lane), b = hn::LoadU(d, from.b + lane);
-    auto centre = hn::Undefined(df), error = hn::Undefined(df);
+    auto centre = hn::Zero(df), error = hn::Zero(df);
     PlacePlane(d, a, b, hn::LoadU(d, from.c + lane), hn::PromoteTo(d, hn::Load(df, from.error + lane)), x, y,
                hn::Load(d, kPlaneRelative + lane), hn::Load(d, kPlaneLimit + lane), centre, error);
     hn::Store(RoundToFloat(df, a), df, to.a + lane);

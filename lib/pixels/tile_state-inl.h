@@ -50,8 +50,8 @@ HWY_INLINE void SetBounds(TileState& state, int block, std::uint32_t pixels) {
   for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
     const auto mask = MaskOfBits(d, pixels >> lane);
-    auto low = hn::Undefined(d);
-    auto high = hn::Undefined(d);
+    auto low = hn::Zero(d);
+    auto high = hn::Zero(d);
     BoundsOf(d, hn::Load(d, state.t + offset), low, high);
     hn::BlendedStore(low, mask, d, state.inverse_low + offset);
     hn::BlendedStore(high, mask, d, state.inverse_high + offset);
@@ -117,8 +117,8 @@ inline void LoadTile(const TileTask& task, const Frame& frame, TileState& state)
   const hn::RebindToUnsigned<decltype(d)> du;
   for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
     const auto t = hn::Load(d, state.t + offset);
-    auto low = hn::Undefined(d);
-    auto high = hn::Undefined(d);
+    auto low = hn::Zero(d);
+    auto high = hn::Zero(d);
     BoundsOf(d, t, low, high);
     // Outside the frame: hidden from all.
     const auto none = hn::Eq(t, hn::Set(d, -kFloatInfinity));
@@ -164,7 +164,7 @@ HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Corn
     const auto dx = DirectionComponent(d, x, y, camera.corner.x, camera.du.x, camera.dv.x);
     const auto dy = DirectionComponent(d, x, y, camera.corner.y, camera.du.y, camera.dv.y);
     const auto dz = DirectionComponent(d, x, y, camera.corner.z, camera.du.z, camera.dv.z);
-    auto depth = hn::Undefined(df);
+    auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
     TriangleDepths(
         d, camera.eye, [&](int k) HWY_ATTR { return corner(d, lane, k); }, dx, dy, dz, depth, certain);
@@ -201,7 +201,7 @@ inline std::uint32_t BlockDepthsOfEach(const TileTask& task, int block, const st
 
 // Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
 inline void LearnBlock(const TileTask& task, TileState& state, int block, std::uint32_t pixels) {
-  const size_t first = static_cast<size_t>(block * kBlockPixels);
+  const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
   const hn::RebindToFloat<decltype(d)> df;
   std::uint32_t unknown = 0;

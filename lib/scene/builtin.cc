@@ -25,8 +25,8 @@ constexpr Entry kEntries[] = {
     {"terrain", "fractal mountains, a height field seen at a grazing angle", 500'000, 2, 50'000'000,
      "triangles, about", detail::terrain},
     {"grid",
-     "a relief of blocks on integer coordinates whose vertices, edges and diagonals pixel rays meet "
-     "exactly where the frame is 720, 1080 or 512 lines high, or half or double that",
+     "a relief of blocks on integer coordinates; in frames of 720, 1080 or 512 lines, or half as many, "
+     "pixel rays meet its vertices and edges exactly",
      384, 1, 4096, "blocks in a row of the upper half", detail::grid},
 };
 

@@ -12,16 +12,18 @@
 //
 //     (135 (2x + 1 - W) / (256 H), 135 (H - 1 - 2y) / (256 H), -1)
 //
-// exactly, where 135 / H is a dyadic fraction: for H = 720, 1080, 512 and their halves and doubles.
-// The eye is 9 * 2^17 above the plane z = 0; k * 2^17 below the eye, the ray of a pixel is at
+// exactly, where 135 / H is a dyadic fraction: for H = 720, 1080, 512 and their halves and doubles, for
+// example. The eye is 9 * 2^17 above the plane z = 0; k * 2^17 below the eye, the ray of a pixel is at
 //
 //     x = k p a,  y = k p b  with odd a and b,  p = 2^17 * 135 / (256 H): 96 for H = 720, 135 for H = 512
 //
 // The blocks of the upper half (y > 0) have sides of 63 * 96, those of the lower half 63 * 135, and
 // every top is at k = 9, 7 or 6. So with H = 720 and in the upper half, a ray meets lines of the
 // lattice at k = 9 in every 7th column and every 7th row, at k = 7 in every 9th, at k = 6 in every
-// 21st, and the blocks' diagonals as often; with H = 512 the same holds in the lower half. Halving or
-// doubling H changes nothing of it; with H = 1080 a third as many do it in the upper half.
+// 21st, and the blocks' diagonals as often; with H = 512 the same holds in the lower half. Halving H
+// changes nothing of it; with H = 1080 a third as many do it in the upper half. Of all pixels of a
+// 1280 x 720 frame of the default size, 9.9 % see a triangle exactly on its edge or vertex; of a
+// 512 x 512 frame 14.8 %.
 
 namespace plumb::detail {
 namespace {

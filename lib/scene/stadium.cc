@@ -73,15 +73,14 @@ void append_lines(TriangleMesh& mesh, double detail) {
 
 void append_ground(TriangleMesh& mesh, double detail) {
   append_lines(mesh, detail);
-  constexpr int kStripes = 24;
-  for (int i = 0; i < kStripes; ++i) {
-    const double x = -60.0 + 5.0 * i;
-    append_patch(mesh, x, x + 5.0, -40.0, 40.0);
-  }
   const int segments = at_least(16, 192 * detail);
   for (int lane = 0; lane < 8; ++lane) {
-    const double inner = -12.0 + 1.22 * lane;
+    const double inner = -11.5 + 1.22 * lane;
     append_sweep(mesh, kStands, {{inner, 0.0}, {inner + 1.17, 0.0}}, segments);
+  }
+  for (int stripe = 0; stripe < 22; ++stripe) {
+    const double x = -55.0 + 5.0 * stripe;
+    append_patch(mesh, x, x + 5.0, -36.0, 36.0);
   }
   append_patch(mesh, -135.0, 135.0, -118.0, 118.0);
 }
@@ -132,7 +131,7 @@ void append_seats(TriangleMesh& mesh, const Tier& tier, int row, double detail) 
 }
 
 void append_tier(TriangleMesh& mesh, const Tier& tier, int segments, double detail) {
-  std::vector<ProfilePoint> steps{{tier.front, tier.bottom - 1.0}};  // a wall in front
+  std::vector<ProfilePoint> steps{{tier.front, tier.bottom - 1.2}};  // a wall in front
   for (int row = 0; row < tier.rows; ++row) {
     const double y = tier.bottom + tier.step_rise() * (row + 1);
     steps.push_back({tier.front + tier.step_depth() * row, y});

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "base/fp_mode.h"
@@ -16,99 +15,78 @@
 namespace plumb::detail {
 namespace {
 
-// A leaf of the binary tree and the first of its blocks.
-struct LeafPlace {
-  std::uint32_t node;
-  std::uint32_t block;
+constexpr std::size_t kPieceSize = 512;  // wide nodes
+
+// The children of a wide node: which nodes of the binary tree they are, and what WideNode::child will be.
+template <int W>
+struct PlannedNode {
+  int count = 0;
+  std::array<std::uint32_t, W> binary;
+  std::array<std::uint32_t, W> child;
 };
 
-// The shape of the wide tree: the children of every node, but not yet the triangles.
+// The shape of the wide tree, decided before any memory for it is taken.
 template <int W>
-class Shape {
+class Plan {
  public:
-  explicit Shape(const BinaryTree& binary) : binary_(binary) {
-    nodes.reserve(binary.nodes.size() / W + 1);
-    leaves.reserve(binary.nodes.size() / 2 + 1);
+  explicit Plan(const BinaryTree& binary) : binary_(binary) {
     if (binary.nodes.empty()) {
-      nodes.push_back(empty_node());
+      nodes.emplace_back();
     } else {
       add_node(0);
     }
   }
 
-  AlignedVector<WideNode<W>> nodes;
-  std::vector<LeafPlace> leaves;
+  std::vector<PlannedNode<W>> nodes;
   std::uint32_t blocks = 0;
 
  private:
-  struct Child {
-    std::uint32_t node;  // of the binary tree
-    double area;         // negative for a leaf, which cannot be opened
-  };
-  struct Children {
-    std::array<Child, W> child;
-    int count = 0;
-
-    void push(const BinaryTree& binary, std::uint32_t index) {
-      const BinaryNode& node = binary.nodes[index];
-      child[static_cast<std::size_t>(count++)] = {index, node.count != 0 ? -1.0 : half_area(node.box)};
-    }
+  struct Candidate {
+    std::uint32_t node;
+    double area;  // negative for a leaf, which cannot be opened
   };
 
-  // Among equal areas the one that came in first, so that flat scenes are opened level by level.
-  Children choose(std::uint32_t root) const {
-    Children children;
-    children.push(binary_, root);
-    while (children.count < W) {
-      const auto end = children.child.begin() + children.count;
-      const auto widest = std::max_element(children.child.begin(), end,
-                                           [](const Child& a, const Child& b) { return a.area < b.area; });
+  Candidate candidate(std::uint32_t index) const {
+    const BinaryNode& node = binary_.nodes[index];
+    return {index, node.count != 0 ? -1.0 : half_area(node.box)};
+  }
+
+  // Among equal areas the one that came in first is opened, so that flat scenes are opened level by level.
+  PlannedNode<W> choose(std::uint32_t root) const {
+    std::array<Candidate, W> list;
+    auto end = list.begin();
+    *end++ = candidate(root);
+    while (end != list.end()) {
+      const auto widest = std::max_element(
+          list.begin(), end, [](const Candidate& a, const Candidate& b) { return a.area < b.area; });
       if (widest->area < 0.0) break;
       const std::uint32_t first = binary_.nodes[widest->node].first;
-      std::move(widest + 1, end, widest);
-      --children.count;
-      children.push(binary_, first);
-      children.push(binary_, first + 1);
+      end = std::move(widest + 1, end, widest);
+      *end++ = candidate(first);
+      *end++ = candidate(first + 1);
     }
-    return children;
-  }
-
-  static void set_box(WideNode<W>& node, int i, const Box& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      node.bounds[2 * axis][i] = box.lo[axis];
-      node.bounds[2 * axis + 1][i] = box.hi[axis];
-    }
-  }
-
-  static WideNode<W> empty_node() {
-    WideNode<W> node{};
-    for (int i = 0; i < W; ++i) {
-      set_box(node, i, empty_box());
-      node.child[i] = kNoChild;
-    }
+    PlannedNode<W> node;
+    node.count = static_cast<int>(end - list.begin());
+    std::transform(list.begin(), end, node.binary.begin(), [](const Candidate& c) { return c.node; });
     return node;
   }
 
   std::uint32_t add_node(std::uint32_t root) {
     const auto self = static_cast<std::uint32_t>(nodes.size());
-    nodes.push_back(empty_node());
-    const Children children = choose(root);
-    // Leaves first: their blocks come near their parent's.
-    for (int i = 0; i < children.count; ++i) {
-      const std::uint32_t index = children.child[static_cast<std::size_t>(i)].node;
-      const BinaryNode& node = binary_.nodes[index];
-      set_box(nodes[self], i, node.box);
-      if (node.count == 0) continue;
-      nodes[self].child[i] = blocks;
-      nodes[self].count[i] = node.count;
-      leaves.push_back({index, blocks});
-      blocks += (node.count + W - 1) / W;
+    PlannedNode<W> node = choose(root);
+    nodes.emplace_back();
+    const auto count = static_cast<std::size_t>(node.count);
+    // Leaves first: their blocks come together, near those of their parent's other leaves.
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t triangles = binary_.nodes[node.binary[i]].count;
+      if (triangles == 0) continue;
+      node.child[i] = blocks;
+      blocks += (triangles + W - 1) / W;
     }
-    for (int i = 0; i < children.count; ++i) {
-      if (nodes[self].count[i] != 0) continue;
-      const std::uint32_t child = add_node(children.child[static_cast<std::size_t>(i)].node);
-      nodes[self].child[i] = child;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (binary_.nodes[node.binary[i]].count == 0) node.child[i] = add_node(node.binary[i]);
     }
+    nodes[self] = node;
     return self;
   }
 
@@ -126,43 +104,73 @@ float extent_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return std::max(static_cast<float>(greatest), 0x1p-30f);
 }
 
+// Writes the wide tree's nodes and blocks where the plan has them.
 template <int W>
-void fill_leaf(const BinaryTree& binary, MeshView mesh, std::uint32_t first_id, const LeafPlace& leaf,
-               TriangleBlock<W>* blocks) {
-  const BinaryNode& node = binary.nodes[leaf.node];
-  for (std::uint32_t i = 0; i < node.count; ++i) {
-    TriangleBlock<W>& block = blocks[leaf.block + i / W];
-    const std::uint32_t lane = i % W;
-    const std::uint32_t index = binary.order[node.first + i];
-    const glm::uvec3& corners = mesh.triangles[index];
-    const glm::vec3 vertex[3] = {mesh.positions[corners.x], mesh.positions[corners.y],
-                                 mesh.positions[corners.z]};
+class Filler {
+ public:
+  Filler(const BinaryTree& binary, MeshView mesh, std::uint32_t first_id, WideTree<W>& wide)
+      : binary_(binary), mesh_(mesh), first_id_(first_id), wide_(wide) {}
+
+  void fill(const PlannedNode<W>& planned, WideNode<W>& node) const {
+    for (int i = 0; i < W; ++i) {
+      if (i >= planned.count) {
+        set_child(node, i, empty_box(), kNoChild, 0);
+        continue;
+      }
+      const std::uint32_t child = planned.child[static_cast<std::size_t>(i)];
+      const BinaryNode& from = binary_.nodes[planned.binary[static_cast<std::size_t>(i)]];
+      set_child(node, i, from.box, child, from.count);
+      for (std::uint32_t k = 0; k < from.count; ++k) {
+        set_triangle(wide_.blocks[child + k / W], k % W, binary_.order[from.first + k]);
+      }
+    }
+  }
+
+ private:
+  static void set_child(WideNode<W>& node, int i, const Box& box, std::uint32_t child, std::uint32_t count) {
+    for (int axis = 0; axis < 3; ++axis) {
+      node.bounds[2 * axis][i] = box.lo[axis];
+      node.bounds[2 * axis + 1][i] = box.hi[axis];
+    }
+    node.child[i] = child;
+    node.count[i] = count;
+  }
+
+  void set_triangle(TriangleBlock<W>& block, std::uint32_t lane, std::uint32_t index) const {
+    const glm::uvec3& corners = mesh_.triangles[index];
+    const glm::vec3 vertex[3] = {mesh_.positions[corners.x], mesh_.positions[corners.y],
+                                 mesh_.positions[corners.z]};
     for (int v = 0; v < 3; ++v) {
       for (int axis = 0; axis < 3; ++axis) block.vertex[v][axis][lane] = vertex[v][axis];
     }
     block.extent[lane] = extent_of(vertex[0], vertex[1], vertex[2]);
-    block.id[lane] = first_id + index;
+    block.id[lane] = first_id_ + index;
   }
-}
+
+  const BinaryTree& binary_;
+  MeshView mesh_;
+  std::uint32_t first_id_;
+  WideTree<W>& wide_;
+};
 
 }  // namespace
 
 template <int W>
 WideTree<W> collapse(const BinaryTree& tree, MeshView mesh, std::uint32_t first_id, int threads) {
   const DefaultFpMode guard;
-  Shape<W> shape(tree);
+  const Plan<W> plan(tree);
   WideTree<W> wide;
+  wide.nodes.resize(plan.nodes.size());
+  wide.blocks.resize(plan.blocks);  // zero in every lane
   wide.box = tree.nodes.empty() ? empty_box() : tree.nodes[0].box;
   wide.greatest = greatest_coordinate(wide.box);
-  wide.nodes = std::move(shape.nodes);
-  wide.blocks.resize(shape.blocks);
-  const std::vector<LeafPlace>& leaves = shape.leaves;
+
+  const Filler<W> filler(tree, mesh, first_id, wide);
   in_arena(threads, [&] {
-    for_pieces(leaves.size(), piece_count(leaves.size(), 1024),
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i)
-                   fill_leaf<W>(tree, mesh, first_id, leaves[i], wide.blocks.data());
-               });
+    const std::size_t pieces = piece_count(plan.nodes.size(), kPieceSize);
+    for_pieces(plan.nodes.size(), pieces, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) filler.fill(plan.nodes[i], wide.nodes[i]);
+    });
   });
   return wide;
 }

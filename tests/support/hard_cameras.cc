@@ -40,7 +40,7 @@ float scale(const TriangleMesh& mesh) {
   return greatest == 0.0f ? 1.0f : std::ldexp(1.0f, std::clamp(std::ilogb(greatest), -145, 90));
 }
 
-// look_at, or with another eye where it would refuse.
+// look_at, or a plain view from the origin where it refuses.
 Camera looking(Random& random, glm::vec3 eye, glm::vec3 target, double fov) {
   const auto [width, height] = size(random);
   const glm::vec3 up = random.one_in(2) ? glm::vec3(0, 1, 0) : random.unit3();
@@ -49,9 +49,7 @@ Camera looking(Random& random, glm::vec3 eye, glm::vec3 target, double fov) {
   try {
     return Camera::look_at(eye, target, up, fov, width, height);
   } catch (const Error&) {
-    // Towards 0, so that it stays finite.
-    const float x = 0.75f * target.x + (target.x > 0.0f ? -1.0f : 1.0f);
-    return Camera::look_at(eye, {x, target.y, target.z}, {0.25f, 1, 0.5f}, fov, width, height);
+    return Camera::look_at({0, 0, 0}, {1, 0.5f, -0.25f}, {0, 1, 0}, fov, width, height);
   }
 }
 
@@ -90,8 +88,9 @@ Camera raster(Random& random, glm::vec3 eye, double step, double forward) {
   glm::dvec3 corner(0.0), du(0.0), dv(0.0);
   du[(axis + 1) % 3] = step;
   dv[(axis + 2) % 3] = -step;
-  // Pixel (width / 2, height / 2) looks straight along the axis.
-  corner = -((width / 2) + 0.5) * du - ((height / 2) + 0.5) * dv;
+  // This pixel looks straight along the axis.
+  const int middle_x = width / 2, middle_y = height / 2;
+  corner = -(middle_x + 0.5) * du - (middle_y + 0.5) * dv;
   corner[axis] = forward;
   return Camera(eye, corner, du, dv, width, height);
 }
@@ -157,10 +156,5 @@ constexpr CameraKind kKinds[] = {
 }  // namespace
 
 std::span<const CameraKind> camera_kinds() { return kKinds; }
-
-Camera make_camera(const CameraKind& kind, std::uint64_t seed, const TriangleMesh& mesh) {
-  Random random(seed);
-  return kind.make(random, mesh);
-}
 
 }  // namespace plumb::hard

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -17,7 +16,5 @@ struct CameraKind {
 };
 
 std::span<const CameraKind> camera_kinds();
-
-Camera make_camera(const CameraKind& kind, std::uint64_t seed, const TriangleMesh& mesh);
 
 }  // namespace plumb::hard

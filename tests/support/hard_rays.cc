@@ -159,6 +159,61 @@ Ray from_surface(Random& random, Targets& t) {
   return through(origin, t.v0());
 }
 
+// From just above the surface: det(a, b, c) is small against its terms.
+Ray from_near_surface(Random& random, Targets& t) {
+  const glm::vec3 point = t.inside();
+  const glm::vec3 origin = point + t.scale(-random.between(8, 24)) * random.unit3();
+  return random.one_in(2) ? through(origin, t.inside()) : along(origin, random.unit3());
+}
+
+// From (0, 0, 0) through a point with small integer coordinates in the corners' own basis, or one unit
+// beside it: exactly or nearly on an edge of the "unimodular" scenes.
+Ray from_zero(Random& random, Targets& t) {
+  const auto weight = [&](int greatest) { return static_cast<float>(random.between(-1, greatest)); };
+  const glm::vec3 v0 = t.v0(), v1 = v0 + t.e1(), v2 = v0 + t.e2();
+  glm::vec3 direction = weight(3) * v0 + weight(3) * v1 + weight(1) * v2;
+  direction[random.between(0, 2)] += static_cast<float>(random.between(-1, 1));
+  return along(glm::vec3(0.0f), direction);
+}
+
+// Straight at a triangle across an axis, so that t = height / speed. That is made the midpoint of two
+// floats, or as near to one as a ratio of floats can be, in the normal or the subnormal range.
+Ray at_midpoint(Random& random, Targets& t) {
+  int axis = -1;
+  for (int tries = 0; tries < 8 && axis < 0; ++tries) {
+    t.choose();
+    for (int i = 0; i < 3; ++i) axis = t.e1()[i] == 0.0f && t.e2()[i] == 0.0f && t.v0()[i] != 0.0f ? i : axis;
+  }
+  glm::vec3 origin = t.inside();
+  glm::vec3 direction(0.0f);
+  if (axis < 0) return along(t.origin(), origin);
+  const float level = origin[axis];
+  const auto odd = [&] { return 2 * random.below(1u << 23) + 1; };
+  switch (random.below(3)) {
+    case 0:  // level + odd * 2^-24 level: 25 bits, the last one set
+      origin[axis] = -static_cast<float>(odd()) * 0x1p-24f * level;
+      direction[axis] = std::ldexp(level, random.between(-30, 30));
+      break;
+    case 1:  // small integers, or halves of them, times 2^-149
+      origin[axis] = level - static_cast<float>(random.between(-8, 8)) * std::ldexp(level, -23);
+      direction[axis] = std::ldexp(level, random.between(123, 127));
+      break;
+    default: {
+      // height / speed = (m +- 1 / speed) / 2^25 with odd m < 2^25, for m speed = +-1 modulo 2^25.
+      const std::uint32_t speed = odd();
+      std::uint32_t inverse = speed;  // Newton's iteration doubles the 3 bits that are right
+      for (int i = 0; i < 4; ++i) inverse *= 2 - speed * inverse;
+      const std::uint32_t m = (random.one_in(2) ? inverse : 0 - inverse) & ((1u << 25) - 1);
+      const std::uint64_t height = (std::uint64_t{m} * speed + (1u << 24)) >> 25;
+      const float unit = std::ldexp(level, -24);
+      origin[axis] = level - static_cast<float>(height) * unit;
+      direction[axis] = static_cast<float>(speed) * unit;
+      break;
+    }
+  }
+  return along(origin, direction);
+}
+
 // From up to 2^30 scene sizes away.
 Ray from_afar(Random& random, Targets& t) {
   const glm::vec3 point = random.one_in(2) ? t.v0() : random.one_in(2) ? t.on_edge() : t.inside();
@@ -195,10 +250,14 @@ struct RayKind {
 };
 
 constexpr RayKind kKinds[] = {
-    {"at_vertex", at_vertex},     {"at_edge", at_edge},     {"at_inside", at_inside},
-    {"along_edge", along_edge},   {"in_plane", in_plane},   {"axis_parallel", axis_parallel},
-    {"from_vertex", from_vertex}, {"from_edge", from_edge}, {"from_surface", from_surface},
-    {"from_afar", from_afar},     {"anywhere", anywhere},   {"not_a_ray", not_a_ray},
+    {"at_vertex", at_vertex},       {"at_edge", at_edge},
+    {"at_inside", at_inside},       {"along_edge", along_edge},
+    {"in_plane", in_plane},         {"axis_parallel", axis_parallel},
+    {"from_vertex", from_vertex},   {"from_edge", from_edge},
+    {"from_surface", from_surface}, {"from_near_surface", from_near_surface},
+    {"from_zero", from_zero},       {"at_midpoint", at_midpoint},
+    {"from_afar", from_afar},       {"anywhere", anywhere},
+    {"not_a_ray", not_a_ray},
 };
 
 // ---- What may be done to any ray.

@@ -21,8 +21,8 @@ struct Case {
   std::vector<Ray> rays;
   std::vector<std::string_view> ray_kinds;  ///< how each ray was made
 
-  /// For messages of tests: enough to make the case again, and the ray itself.
-  std::string describe(std::size_t ray) const;
+  /// For messages of tests: enough to make the case again, and ray i itself.
+  std::string describe(std::size_t i) const;
 };
 
 Case make_case(const SceneKind& scene, std::uint64_t seed, std::size_t ray_count);

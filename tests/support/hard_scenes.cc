@@ -3,14 +3,21 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace plumb::hard {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kMax = std::numeric_limits<float>::max();
+
+// Of corners numbered by the bits x + 2 y + 4 z.
+constexpr glm::uvec3 kCubeFaces[] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                     {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
 
 using Corners = std::array<glm::vec3, 3>;
 
@@ -74,8 +81,24 @@ TriangleMesh solid(Random& random) {
     for (int i = 0; i < 8; ++i) {
       mesh.positions.push_back(centre + radius * glm::vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
     }
-    mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                      {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+    mesh.triangles.assign(std::begin(kCubeFaces), std::end(kCubeFaces));
+  }
+  random.shuffle(mesh.triangles);
+  return mesh;
+}
+
+// Cuboids across the axes, apart from each other, with integer corners so large that reciprocals round:
+// rays meet the edges and corners of bounding boxes, where their near and far planes tie.
+TriangleMesh cuboids(Random& random) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 5; ++i) {
+    const glm::vec3 lo = random.lattice3(400);
+    const glm::vec3 hi = lo + random.lattice3(60);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int k = 0; k < 8; ++k) {
+      mesh.positions.emplace_back(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
+    }
+    for (const glm::uvec3& face : kCubeFaces) mesh.triangles.push_back(face + first);
   }
   random.shuffle(mesh.triangles);
   return mesh;
@@ -201,6 +224,39 @@ TriangleMesh coplanar(Random& random) {
   }));
 }
 
+// Across an axis at one of a few levels, with free coordinates otherwise: depths are ratios of two
+// coordinates, while the arithmetic around them rounds.
+TriangleMesh flat(Random& random) {
+  const int axis = random.between(0, 2);
+  std::vector<Corners> triangles;
+  for (int i = 0; i < 20; ++i) {
+    Corners c = {random.unit3(), random.unit3(), random.unit3()};
+    const float level = std::ldexp(random.one_in(2) ? 1.0f : -1.0f, random.between(-1, 1));
+    for (glm::vec3& v : c) v[axis] = level;
+    triangles.push_back(c);
+  }
+  return mesh_of(triangles);
+}
+
+// Seen from the origin, all three edges of every triangle nearly coincide with one plane, and the
+// triangle's own plane nearly holds the origin: (p, q) and (r, s) are neighbours in the Stern-Brocot
+// tree, p s - q r = 1, so determinants of large integers are 0, 1 or little more. See from_zero in
+// hard_rays.cc.
+TriangleMesh unimodular(Random& random) {
+  std::vector<Corners> triangles;
+  for (int i = 0; i < 20; ++i) {
+    glm::vec2 left(0, 1), right(1, 0);
+    const float limit = std::ldexp(1.0f, random.between(6, 22));
+    while (left.x + right.x < limit && left.y + right.y < limit) {
+      (random.one_in(2) ? left : right) = left + right;
+    }
+    const float x0 = std::round(0.5f * limit * random.unit()), x1 = std::round(0.5f * limit * random.unit());
+    const float lift = static_cast<float>(random.between(-3, 3));
+    triangles.push_back({glm::vec3{x0, left}, glm::vec3{x1, right}, glm::vec3{x0 + x1 + lift, left + right}});
+  }
+  return mesh_of(triangles);
+}
+
 // One centre: centroids and nested boxes all agree.
 TriangleMesh concentric(Random& random) {
   std::vector<Corners> triangles;
@@ -269,6 +325,7 @@ constexpr SceneKind kKinds[] = {
     {"soup", soup},
     {"lattice", lattice},
     {"solid", solid},
+    {"cuboids", cuboids},
     {"fan", fan},
     {"terrain", terrain},
     {"slivers", slivers},
@@ -277,6 +334,8 @@ constexpr SceneKind kKinds[] = {
     {"non_finite", non_finite},
     {"near_ties", near_ties},
     {"coplanar", coplanar},
+    {"flat", flat},
+    {"unimodular", unimodular},
     {"concentric", concentric},
     {"huge", huge},
     {"tiny", tiny},

@@ -13,17 +13,22 @@
 
 namespace plumb {
 
+/// How a Bvh is built and queried.
 struct BuildOptions {
   /// Children per node: 2 (plain scalar code, the reference), 4 or 8; 0 picks the best for `simd`.
   int width = 0;
-  /// Threads for the build; 0 takes all that the affinity mask allows. The tree does not depend on it.
+  /// Threads for the build; 0 takes all that the affinity mask allows, and more are never used.
+  /// The tree does not depend on it.
   int threads = 0;
-  /// Instruction set of the queries. plumb::Error if this machine cannot run it.
+  /// Instruction set of the queries; must be Auto or one of simd_targets(). Width 2 is scalar whatever it
+  /// says.
   Simd simd = Simd::Auto;
-  /// The id of the mesh's first triangle, where the mesh is a part of a larger scene.
+  /// The id of the mesh's first triangle, where the mesh is a part of a larger scene. All ids must be
+  /// below kNone.
   std::uint32_t first_id = 0;
-  /// Called now and then with the share done, 0 to 1, from the calling thread's build or one of its
-  /// workers, never from two at once. Returning false cancels: the constructor throws Cancelled.
+  /// Called now and then with the share done, rising from 0 to 1, from whichever thread gets there but
+  /// never from two at once. Returning false cancels: the constructor throws Cancelled. What it throws
+  /// itself ends the build too and comes out of the constructor.
   std::function<bool(double)> progress;
 };
 
@@ -32,36 +37,52 @@ struct Statistics {
   std::size_t triangles = 0;         ///< in the mesh
   std::size_t unseen_triangles = 0;  ///< of these, left out: a coordinate is NaN or infinite
   std::size_t nodes = 0;             ///< inner nodes
-  std::size_t leaves = 0;
-  int width = 0;          ///< children per node
-  int depth = 0;          ///< nodes on the longest path from the root to a leaf
-  double fill = 0;        ///< used children, as a share of `nodes * width`
-  double leaf_fill = 0;   ///< triangles in leaves, as a share of the lanes they take
-  double sah_cost = 0;    ///< expected boxes and triangles tested by a random ray that meets the root box
-  std::size_t bytes = 0;  ///< memory held
-  double build_seconds = 0;
+  std::size_t leaves = 0;            ///< nodes that hold triangles
+  int width = 0;                     ///< children per node
+  int depth = 0;                     ///< nodes on the longest path from the root to a leaf
+  double fill = 0;                   ///< used children, as a share of `nodes * width`
+  double leaf_fill = 0;              ///< triangles in leaves, as a share of the lanes they take
+  /// Boxes and triangles that a random line which meets the root's box is expected to be tested
+  /// against, if nothing hides anything: the surface area heuristic (Goldsmith and Salmon 1987;
+  /// MacDonald and Booth 1990). Each counts 1, whatever number a machine tests at once, so that trees
+  /// of all widths compare.
+  double sah_cost = 0;
+  std::size_t bytes = 0;     ///< memory held, triangles included
+  double build_seconds = 0;  ///< what the constructor took, by the wall clock
 };
 
-/// A bounding volume hierarchy over a copy of the mesh. Answers what docs/visibility.md defines, bit
-/// for bit, whatever the width and instruction set. Immutable: const calls from many threads are
-/// safe, and copies share the tree.
+/// A bounding volume hierarchy over a copy of the mesh.
+///
+/// Answers what docs/visibility.md defines, bit for bit, whatever the width, the instruction set and the
+/// caller's floating-point mode. Immutable: const calls from many threads are safe, and copies share
+/// the tree. One that was moved from can only be assigned to.
+///
+/// Built by the surface area heuristic over bins (Wald 2007, "On fast Construction of SAH-based Bounding
+/// Volume Hierarchies"), then collapsed to wide nodes (Wald, Benthin and Boulos 2008, "Getting Rid of
+/// Packets"). Takes about n log n time for n triangles.
 class Bvh {
  public:
-  /// Throws plumb::Error for an index out of range, too many triangles (ids stay below kNone), an
-  /// unknown width or an instruction set that this machine lacks.
+  /// Copies what it needs of the mesh, which may have any number of triangles, none as well. Triangles
+  /// with a NaN or infinite coordinate are left out, and counted in statistics().
+  /// Throws plumb::Error for a vertex index out of range, ids that reach kNone, 2^31 triangles and
+  /// more, and options out of range, and Cancelled when the options' progress says so.
   explicit Bvh(MeshView mesh, const BuildOptions& options = {});
 
-  /// The smallest (t, id) among the hits that count; {+inf, kNone} when there is none.
+  /// The smallest (t, id) among the hits that count, those with max(ray.tmin, 0) < t <= ray.tmax;
+  /// {+inf, kNone} when there is none.
   Hit closest(const Ray& ray) const;
   /// Whether any hit counts.
   bool any(const Ray& ray) const;
   /// Replaces the contents of `hits` by every hit that counts, sorted by (t, id).
   void all(const Ray& ray, std::vector<Hit>& hits) const;
 
-  /// The same for many rays, on the calling thread. Throws plumb::Error when the sizes differ.
+  /// The closest hit of every ray, hits[i] that of rays[i], on the calling thread. Throws plumb::Error
+  /// when the sizes differ.
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
+  /// Whether any hit of each ray counts, in the same way.
   void any(std::span<const Ray> rays, std::span<bool> hits) const;
 
+  /// What the tree is like.
   Statistics statistics() const;
 
   struct Impl;

@@ -10,10 +10,11 @@ namespace plumb {
 ///
 ///     RN32((corner + (x + 0.5) * du) + (y + 0.5) * dv)
 ///
-/// from `eye`, each operation rounded to double and the result to float (docs/visibility.md).
+/// from `eye`, each operation rounded to double and the result to float (docs/visibility.md). The
+/// members may be changed; a pixel whose direction is zero or not finite sees nothing.
 class Camera {
  public:
-  glm::vec3 eye{0.0f, 0.0f, 0.0f};
+  glm::vec3 eye{0.0f, 0.0f, 0.0f};   ///< the origin of every ray
   glm::dvec3 corner{0.0, 0.0, 0.0};  ///< direction to the frame's upper left corner
   glm::dvec3 du{0.0, 0.0, 0.0};      ///< step of the direction to the next pixel of a row
   glm::dvec3 dv{0.0, 0.0, 0.0};      ///< step of the direction to the next row

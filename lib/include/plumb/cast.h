@@ -9,17 +9,21 @@
 
 namespace plumb {
 
+/// How a frame is cast.
 struct CastOptions {
-  /// Threads; 0 takes all that the affinity mask allows.
+  /// Threads; 0 takes all that the affinity mask allows, and more are never used.
   int threads = 0;
-  /// Called now and then with the share done, 0 to 1, never from two threads at once. Returning
-  /// false cancels: Cancelled is thrown and the frame's contents are unspecified.
+  /// Called now and then with the share done, rising from 0 to 1, from whichever thread gets there but
+  /// never from two at once. Returning false cancels: cast() throws Cancelled. What it throws itself
+  /// comes out of cast() too. Either way some pixels may have been overwritten and others not.
   std::function<bool(double)> progress;
 };
 
-/// Casts the ray of every pixel and overwrites the whole frame. Throws plumb::Error when the frame's
-/// size is not the camera's.
+/// Casts the ray of every pixel and overwrites the whole frame. Throws plumb::Error, and leaves the
+/// frame as it was, when the frame's size is not the camera's, when it does not hold a depth and an id
+/// for each pixel, and when `threads` is negative; and Cancelled when the options' progress says so.
 void cast(const Bvh& bvh, const Camera& camera, Frame& frame, const CastOptions& options = {});
+/// The same, every ray against every triangle.
 void cast(const BruteForce& brute, const Camera& camera, Frame& frame, const CastOptions& options = {});
 
 }  // namespace plumb

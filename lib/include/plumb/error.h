@@ -11,7 +11,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown when a progress callback returned false. Nothing was built or written.
+/// Thrown when a progress callback returned false. What is left of the call's work, if anything, is
+/// said where the callback is.
 class Cancelled : public Error {
  public:
   using Error::Error;

@@ -15,17 +15,20 @@ struct Frame {
   /// Every pixel to {+inf, kNone}.
   void clear();
 
-  int width;
-  int height;
-  std::vector<float> depth;
-  std::vector<std::uint32_t> id;
+  int width;                      ///< pixels, at least 1
+  int height;                     ///< pixels, at least 1
+  std::vector<float> depth;       ///< t of pixel (x, y) at y * width + x; t as in Hit, +inf for nothing
+  std::vector<std::uint32_t> id;  ///< id of pixel (x, y) at y * width + x; kNone for nothing
 };
 
 /// A pixel in which two frames differ, and what each saw there.
 struct PixelDifference {
-  int x, y;
-  float depth_a, depth_b;
-  std::uint32_t id_a, id_b;
+  int x;               ///< from the left, from 0
+  int y;               ///< from the top, from 0
+  float depth_a;       ///< in the first frame
+  float depth_b;       ///< in the second frame
+  std::uint32_t id_a;  ///< in the first frame
+  std::uint32_t id_b;  ///< in the second frame
 };
 
 /// Where and how much two frames differ. Depths are compared as bits.
@@ -36,11 +39,14 @@ struct Comparison {
   std::size_t different_pixels = 0;    ///< pixels in which either differs
   std::vector<PixelDifference> first;  ///< the first of them in row order, at most kMaxListed
 
+  /// How many places are listed at most.
   static constexpr std::size_t kMaxListed = 16;
+  /// Whether the frames are equal to the bit.
   bool equal() const { return different_pixels == 0; }
 };
 
-/// Compares two frames of one size bit by bit. Throws plumb::Error when the sizes differ.
+/// Compares two frames of one size bit by bit. Throws plumb::Error when the sizes differ or a frame
+/// does not hold a depth and an id for each pixel.
 Comparison compare(const Frame& a, const Frame& b);
 
 }  // namespace plumb

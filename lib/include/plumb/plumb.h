@@ -1,6 +1,23 @@
 #pragma once
 
 // Every public header of plumb. Link what you call: plumb::plumb, plumb::raster, plumb::io.
+
+/// @namespace plumb
+/// What does this ray, this camera, see? Every way to ask gives the same bits.
+///
+/// Every function reports bad input by throwing plumb::Error, and running out of memory by what the
+/// standard library throws (load_mesh() by plumb::Error). None prints, exits, keeps global state or needs a
+/// call to start up. All const calls are safe from many threads. The caller's floating-point mode
+/// (flush-to-zero, denormals-are-zero, rounding direction) changes no answer and is the same afterwards.
+
+/// @mainpage
+/// A mesh (mesh.h, io.h, builtin.h) is asked by rays (ray.h) through a structure (bvh.h, brute_force.h),
+/// one ray or many at a time; surface.h gives the point and normal of a hit. A camera (camera.h) asks for a
+/// whole frame (frame.h), through a structure (cast.h) or by drawing triangles (raster.h). Frames of both
+/// are equal to the bit, and compare() says so.
+///
+/// docs/visibility.md defines what is visible; docs/examples has programs to start from.
+
 #include "plumb/brute_force.h"
 #include "plumb/builtin.h"
 #include "plumb/bvh.h"
@@ -13,4 +30,5 @@
 #include "plumb/raster.h"
 #include "plumb/ray.h"
 #include "plumb/simd.h"
+#include "plumb/surface.h"
 #include "plumb/version.h"

@@ -12,22 +12,24 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// A ray: the points `origin + t * direction` with max(tmin, 0) < t <= tmax.
 ///
-/// The direction may have any length but zero; t is measured in multiples of it. Either limit may be
-/// infinite. A ray with a NaN in any of its eight floats, an infinite origin or direction, or a zero
-/// direction sees nothing.
+/// A ray with a NaN in any of its eight floats, an infinite origin or direction, or a zero direction
+/// sees nothing; none is an error.
 struct Ray {
-  glm::vec3 origin{0.0f, 0.0f, 0.0f};
-  float tmin = 0.0f;
-  glm::vec3 direction{0.0f, 0.0f, 0.0f};
-  float tmax = std::numeric_limits<float>::infinity();
+  glm::vec3 origin{0.0f, 0.0f, 0.0f};     ///< in the unit of the mesh's positions
+  float tmin = 0.0f;                      ///< hits at or before it do not count; any value, -inf as well
+  glm::vec3 direction{0.0f, 0.0f, 0.0f};  ///< of any length but zero: t is in multiples of that length
+  float tmax = std::numeric_limits<float>::infinity();  ///< hits beyond it do not count; any value
 };
 
-/// What a ray sees: `t` is the exact distance rounded once to the nearest float, `id` the triangle's
-/// id in the whole scene. A miss is {+inf, kNone}.
+/// What a ray sees. A miss is {+inf, kNone}.
 struct Hit {
+  /// Where: at origin + t * direction; the exact value rounded once to the nearest float. Greater than
+  /// 0, and finite where something was hit.
   float t = std::numeric_limits<float>::infinity();
+  /// What: the triangle's id in the whole scene.
   std::uint32_t id = kNone;
 
+  /// Whether both are equal.
   friend bool operator==(const Hit&, const Hit&) = default;
 };
 

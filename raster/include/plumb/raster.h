@@ -11,36 +11,51 @@
 
 namespace plumb {
 
+/// How triangles are drawn.
 struct RasterOptions {
-  /// Threads; 0 takes all that the affinity mask allows.
+  /// Threads; 0 takes all that the affinity mask allows, and more are never used.
   int threads = 0;
-  /// plumb::Error if this machine cannot run it.
+  /// Instruction set of the kernels; must be Auto or one of simd_targets().
   Simd simd = Simd::Auto;
-  /// The id of the mesh's first triangle, where the mesh is a part of a larger scene.
+  /// The id of the mesh's first triangle, where the mesh is a part of a larger scene. All ids must be
+  /// below kNone.
   std::uint32_t first_id = 0;
-  /// Called now and then with the share done, 0 to 1, never from two threads at once. Returning
-  /// false cancels: Cancelled is thrown and nothing of the call is merged into the frame.
+  /// Called now and then with the share of a draw() done, rising from 0 to 1, from whichever thread gets
+  /// there but never from two at once. Returning false cancels: Cancelled is thrown and nothing of
+  /// that draw() remains. So it is when the callback throws, and its exception comes out. With a
+  /// callback each draw() first copies what was drawn, 8 bytes a pixel.
   std::function<bool(double)> progress;
 };
 
-/// Draws triangles into tiles over many calls, then resolves them into a frame. The answer is that
-/// of one ray per pixel (docs/visibility.md) and does not depend on the order or number of calls.
-/// Not safe for concurrent calls on one object; it runs on many threads inside.
+/// Draws triangles into tiles over many calls, then resolves them into a frame.
+///
+/// The answer is that of one ray per pixel (docs/visibility.md), bit for bit, and does not depend on the
+/// order or number of calls: a scene too large for the memory can be drawn in parts, each with the ids
+/// it has in the whole. There is no near plane and no clipping. Not safe for concurrent calls on one
+/// object; it runs on many threads inside. One that was moved from can only be assigned to.
+///
+/// Homogeneous edge functions over tiles (Olano and Greer 1997, "Triangle Scan Conversion using 2D
+/// Homogeneous Coordinates").
 class Rasterizer {
  public:
+  /// Nothing drawn yet. Throws plumb::Error for a camera with a size below 1 and options out of range.
   explicit Rasterizer(const Camera& camera, const RasterOptions& options = {});
   ~Rasterizer();
+  /// Takes over what was drawn.
   Rasterizer(Rasterizer&&) noexcept;
+  /// Takes over what was drawn.
   Rasterizer& operator=(Rasterizer&&) noexcept;
 
   /// Draws the mesh; `first_id` is the id of its first triangle. Keeps nothing of the view. Throws
-  /// plumb::Error for an index out of range or ids that reach kNone; then nothing was drawn.
+  /// plumb::Error for a vertex index out of range and ids that reach kNone, and Cancelled when the
+  /// options' progress says so; then nothing of this mesh was drawn.
   void draw(MeshView mesh, std::uint32_t first_id);
   /// The same with the options' first_id.
   void draw(MeshView mesh);
 
-  /// Merges what was drawn into the frame by (t, id): a pixel of the frame that is nearer stays.
-  /// Throws plumb::Error when the frame's size is not the camera's.
+  /// Merges what was drawn into the frame by the smallest (t, id): a pixel of the frame that is nearer
+  /// stays. What was drawn stays as well and more may follow. Throws plumb::Error when the frame's
+  /// size is not the camera's or the frame does not hold a depth and an id for each pixel.
   void resolve(Frame& frame) const;
 
   /// Forgets what was drawn.
@@ -53,7 +68,7 @@ class Rasterizer {
 };
 
 /// Draws a mesh as the camera sees it and merges it into the frame by (t, id); a clear frame gives
-/// the picture alone. Throws plumb::Error as Rasterizer does.
+/// the picture alone. Throws what Rasterizer does, and then leaves the frame as it was.
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options = {});
 
 }  // namespace plumb

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "task.h"
+
+namespace plumb::bench {
+
+/// What a method does at one kind of work: its speed (Mrays/s, or ms for a frame or build), the ratio of its
+/// speed to the peer's, and how many answers are wrong. Zero: not measured.
+struct Cell {
+  double figure = 0;
+  double ratio = 0;
+  std::size_t wrong = 0;
+};
+
+struct Row {
+  std::string method, target;
+  bool exact = true;
+  std::array<Cell, kWorkCount> cells;
+};
+
+/// Checks all tasks, then times them, those of one kind of work in turns. Throws plumb::Error when an exact
+/// method's answers are not the reference's: then nothing is timed.
+std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads);
+
+/// The geometric mean of each cell over tables of the same rows.
+std::vector<Row> mean(const std::vector<std::vector<Row>>& tables);
+
+void print_markdown(std::ostream& out, const std::vector<Row>& rows);
+
+}  // namespace plumb::bench

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "encode.h"
+#include "help.h"
+#include "method.h"
+#include "output_file.h"
+#include "picture.h"
+#include "plumb/ray.h"
+#include "progress_bar.h"
+#include "report.h"
+#include "scene.h"
+#include "verdict.h"
+
+namespace plumb::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareOptions {
+  FrameOptions frame;
+  std::string methods = default_methods();
+  std::optional<std::string> out;  ///< without it no pictures
+  bool json = false;
+};
+
+std::size_t count_seen(const Frame& frame) {
+  return frame.id.size() - static_cast<std::size_t>(std::count(frame.id.begin(), frame.id.end(), kNone));
+}
+
+/// The frame's files, by the run's name; returns their paths.
+std::vector<std::string> write_pictures(const fs::path& folder, const std::string& name, const Frame& frame) {
+  std::vector<std::string> files;
+  const auto write = [&](const std::string& suffix, const std::vector<std::byte>& bytes) {
+    files.push_back((folder / (name + suffix)).string());
+    write_file(files.back(), bytes);
+  };
+  write(".exr", encode_exr(frame));
+  write(".depth.png", encode_png(depth_picture(frame)));
+  write(".id.png", encode_png(id_picture(frame)));
+  return files;
+}
+
+/// The picture of where the pair differs. Where it agrees there is none, nor stays one from an earlier
+/// comparison into the same folder.
+std::optional<std::string> write_difference(const fs::path& folder, const Pair& pair, const Frame& a,
+                                            const Frame& b) {
+  const fs::path path = folder / fmt::format("{}-{}.diff.png", pair.a, pair.b);
+  if (pair.comparison.equal()) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    return std::nullopt;
+  }
+  write_file(path, encode_png(difference_picture(a, b)));
+  return path.string();
+}
+
+std::size_t longest_name(const std::vector<Run>& runs) {
+  std::size_t longest = 0;
+  for (const Run& run : runs) longest = std::max(longest, run.name.size());
+  return longest;
+}
+
+/// Makes every run's frame, compares it with the first and says so on standard error. Holds two frames
+/// at most.
+CompareReport compare_runs(const std::vector<Run>& runs, const Scene& scene, const CompareOptions& options) {
+  CompareReport report;
+  std::optional<Frame> first;
+  for (const Run& run : runs) {
+    RunResult result = execute(run, scene.mesh, scene.camera, options.frame.threads, progress_bar);
+    report.runs.push_back({run, result.build_seconds, result.frame_seconds, count_seen(result.frame), {}});
+    RunReport& entry = report.runs.back();
+    fmt::print(stderr, "  {}", timing(entry, longest_name(runs)));
+    if (options.out) entry.files = write_pictures(*options.out, run.name, result.frame);
+    if (!first) {
+      first = std::move(result.frame);
+      fmt::print(stderr, "\n");
+      continue;
+    }
+    Pair pair{runs.front().name, run.name, compare(*first, result.frame), std::nullopt};
+    if (options.out) pair.picture = write_difference(*options.out, pair, *first, result.frame);
+    fmt::print(stderr, "  {}\n{}", summary(pair), differences(pair));
+    report.pairs.push_back(std::move(pair));
+  }
+  return report;
+}
+
+ExitStatus run_compare(const CompareOptions& options) {
+  const std::vector<Run> runs = plan_runs(parse_methods(options.methods), options.frame.simd);
+  if (options.out) make_folder(*options.out);
+  const Scene scene = open_scene(options.frame);
+  fmt::print(stderr, "{}\n", describe(scene));
+  const CompareReport report = compare_runs(runs, scene, options);
+  fmt::print(stderr, "{}\n", verdict(report));
+  if (options.out) fmt::print(stderr, "pictures are in {}\n", *options.out);
+  if (options.json) print_line(to_json(scene, options.frame.threads, report));
+  return exit_status(report.pairs);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, int& status) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Make one frame by several methods and compare every pixel");
+  const auto options = std::make_shared<CompareOptions>();
+  add_frame_options(*command, options->frame);
+  command
+      ->add_option("--methods", options->methods, "what to compare; the first is what the others must equal")
+      ->type_name("LIST")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "write each frame and its pictures into this folder")
+      ->type_name("DIR");
+  command->add_flag("--json", options->json, "print the results as JSON on standard output");
+  command->footer(compare_help());
+  command->callback([options, &status] { status = run_compare(*options); });
+}
+
+}  // namespace plumb::tool

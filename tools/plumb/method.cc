@@ -1,0 +1,157 @@
+#include "method.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "plumb/brute_force.h"
+#include "plumb/bvh.h"
+#include "plumb/cast.h"
+#include "plumb/error.h"
+#include "plumb/raster.h"
+#include "text.h"
+
+namespace plumb::tool {
+namespace {
+
+const MethodInfo& info(Method method) {
+  const auto& methods = all_methods();
+  return *std::find_if(methods.begin(), methods.end(),
+                       [&](const MethodInfo& candidate) { return candidate.method == method; });
+}
+
+std::vector<Simd> parse_targets(std::string_view name) {
+  std::vector<Simd> usable = simd_targets();
+  if (name == "all") return usable;
+  const Simd simd = parse_simd(name);
+  if (simd == Simd::Auto) return {usable.front()};
+  if (std::find(usable.begin(), usable.end(), simd) == usable.end()) {
+    std::string names;
+    for (const Simd target : usable) names.append(" ").append(simd_name(target));
+    throw Error(fmt::format("plumb: --simd {}: this machine cannot run it; it has:{}", name, names));
+  }
+  return {simd};
+}
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <typename Structure>
+void timed_cast(const Structure& structure, const Camera& camera, int threads,
+                const std::function<bool(double)>& progress, RunResult& result) {
+  CastOptions options;
+  options.threads = threads;
+  options.progress = progress;
+  const Stopwatch watch;
+  cast(structure, camera, result.frame, options);
+  result.frame_seconds = watch.seconds();
+}
+
+int tree_width(Method method) {
+  if (method == Method::Bvh2) return 2;
+  return method == Method::Bvh4 ? 4 : 8;
+}
+
+}  // namespace
+
+const std::vector<MethodInfo>& all_methods() {
+  static const std::vector<MethodInfo> kMethods = {
+      {Method::Brute, "brute", "every ray against every triangle; scalar, slow", false, false},
+      {Method::Bvh2, "bvh2", "rays through the binary tree; scalar", false, true},
+      {Method::Bvh4, "bvh4", "rays through the tree of 4 children a node", true, true},
+      {Method::Bvh8, "bvh8", "rays through the tree of 8 children a node", true, true},
+      {Method::Raster, "raster", "the rasterizer", true, true},
+  };
+  return kMethods;
+}
+
+std::string_view method_name(Method method) { return info(method).name; }
+
+Method parse_method(std::string_view name) {
+  std::string known;
+  for (const MethodInfo& candidate : all_methods()) {
+    if (candidate.name == name) return candidate.method;
+    known.append(known.empty() ? "" : ", ").append(candidate.name);
+  }
+  throw Error(fmt::format("plumb: unknown method '{}'; known: {}", name, known));
+}
+
+std::vector<Method> parse_methods(std::string_view list) {
+  std::vector<Method> methods;
+  for (const std::string& name : split_list(list)) {
+    const Method method = parse_method(name);
+    if (std::find(methods.begin(), methods.end(), method) != methods.end()) {
+      throw Error(fmt::format("plumb: --methods {}: '{}' is there twice", list, name));
+    }
+    methods.push_back(method);
+  }
+  return methods;
+}
+
+std::string default_methods() {
+  std::string list;
+  for (const MethodInfo& candidate : all_methods()) {
+    if (candidate.in_default) list.append(list.empty() ? "" : ",").append(candidate.name);
+  }
+  return list;
+}
+
+std::vector<Run> plan_runs(const std::vector<Method>& methods, std::string_view simd) {
+  const std::vector<Simd> targets = parse_targets(simd);
+  std::vector<Run> runs;
+  for (const Method method : methods) {
+    const std::string name(method_name(method));
+    if (!info(method).has_targets) {
+      runs.push_back({method, std::nullopt, name});
+      continue;
+    }
+    for (const Simd target : targets) {
+      runs.push_back(
+          {method, target, targets.size() == 1 ? name : fmt::format("{}-{}", name, simd_name(target))});
+    }
+  }
+  return runs;
+}
+
+RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threads,
+                  const ProgressFor& progress) {
+  RunResult result{Frame(camera.width, camera.height), std::nullopt, 0.0};
+  const Simd simd = run.simd.value_or(Simd::Auto);
+  const std::function<bool(double)> frame_progress = progress(run.name + ": frame");
+  if (run.method == Method::Raster) {
+    RasterOptions options;
+    options.threads = threads;
+    options.simd = simd;
+    options.progress = frame_progress;
+    const Stopwatch watch;
+    rasterize(mesh, camera, result.frame, options);
+    result.frame_seconds = watch.seconds();
+    return result;
+  }
+  const Stopwatch watch;
+  if (run.method == Method::Brute) {
+    const BruteForce brute(mesh);
+    result.build_seconds = watch.seconds();
+    timed_cast(brute, camera, threads, frame_progress, result);
+    return result;
+  }
+  BuildOptions options;
+  options.width = tree_width(run.method);
+  options.threads = threads;
+  options.simd = simd;
+  options.progress = progress(run.name + ": build");
+  const Bvh bvh(mesh, options);
+  result.build_seconds = watch.seconds();
+  timed_cast(bvh, camera, threads, frame_progress, result);
+  return result;
+}
+
+}  // namespace plumb::tool

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "plumb/camera.h"
+#include "plumb/mesh.h"
+
+namespace plumb::tool {
+
+/// What every subcommand that makes frames takes.
+struct FrameOptions {
+  std::string scene = "builtin:teapot-in-stadium";
+  std::string size = "1280x720";
+  std::optional<std::string> eye, target, up;
+  std::optional<double> fov;
+  std::string simd = "auto";
+  int threads = 0;
+};
+
+/// Adds them to a subcommand; they are filled when the command line is parsed.
+void add_frame_options(CLI::App& command, FrameOptions& options);
+
+/// A mesh and the camera that looks at it.
+struct Scene {
+  std::string name;
+  TriangleMesh mesh;
+  Camera camera;
+};
+
+/// Reads or makes the scene. A camera option that is not given is the built-in scene's own; a file's
+/// is that of frame_all, which looks at the middle of the finite triangles. Throws plumb::Error.
+Scene open_scene(const FrameOptions& options);
+
+/// One line about the scene and its camera.
+std::string describe(const Scene& scene);
+
+}  // namespace plumb::tool
