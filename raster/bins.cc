@@ -1,6 +1,7 @@
 #include "raster/bins.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -30,6 +31,31 @@ bool outside(const ScreenTriangle& triangle, int side_px, int column, int row) {
     if (centre + rise + double{triangle.error[i]} < 0.0) return true;
   }
   return false;
+}
+
+// Appends the entries to `sorted`, roughly from front to back, so that near triangles hide far ones before
+// these are drawn: a counting sort by the leading bits of `nearest`, whose bits as integers order as the
+// numbers do.
+void order_by_depth(const std::vector<BinEntry>& entries, std::vector<BinEntry>& sorted) {
+  if (entries.empty()) return;
+  constexpr std::uint32_t kBuckets = 32;
+  std::uint32_t least = 0xffffffffu, greatest = 0;
+  for (const BinEntry& entry : entries) {
+    const auto bits = std::bit_cast<std::uint32_t>(entry.nearest);
+    least = std::min(least, bits);
+    greatest = std::max(greatest, bits);
+  }
+  int shift = 0;
+  while ((greatest - least) >> shift >= kBuckets) ++shift;
+  const auto bucket = [&](const BinEntry& entry) {
+    return (greatest - std::bit_cast<std::uint32_t>(entry.nearest)) >> shift;
+  };
+  std::size_t start[kBuckets + 1] = {};
+  for (const BinEntry& entry : entries) ++start[bucket(entry) + 1];
+  for (std::uint32_t b = 0; b < kBuckets; ++b) start[b + 1] += start[b];
+  const std::size_t base = sorted.size();
+  sorted.resize(base + entries.size());
+  for (const BinEntry& entry : entries) sorted[base + start[bucket(entry)]++] = entry;
 }
 
 }  // namespace
@@ -93,12 +119,43 @@ void Bins::add_wide(std::uint32_t index, Lists& lists) const {
     for (int row = row0; row <= row1; ++row) {
       for (int column = column0; column <= column1; ++column) {
         if (ask && outside(triangle, grid.side_px, column, row)) continue;
-        lists[g].add(static_cast<std::uint32_t>(row * grid.columns + column),
-                     BinEntry(false, index, triangle.nearest));
+        lists.wide[g].add(static_cast<std::uint32_t>(row * grid.columns + column),
+                          BinEntry(false, index, triangle.nearest));
       }
     }
     return;
   }
+}
+
+void Bins::fill_chunk(MeshView mesh, std::size_t first, std::size_t last, std::size_t chunk) {
+  const std::size_t offset = chunk * kChunk;
+  const BinnedTriangles triangles{placed_.get() + offset, wide_.get() + offset};
+  const SetupCounts made =
+      kernels_.set_up(projection_, mesh, first + offset, std::min(first + offset + kChunk, last), triangles);
+  Lists& lists = chunks_[chunk];
+  for (SquareLists& squares : lists.wide) squares.clear();
+  lists.placed.clear();
+  const auto base = static_cast<std::uint32_t>(offset);
+  for (std::uint32_t i = 0; i < made.wide; ++i) add_wide(base + i, lists);
+  for (std::uint32_t i = 0; i < made.placed; ++i) {
+    const TileTriangle& triangle = triangles.placed[i];
+    lists.placed.add(triangle.tile, BinEntry(true, base + i, triangle.nearest));
+  }
+  for (SquareLists& squares : lists.wide) squares.sort();
+  lists.placed.sort();
+}
+
+void Bins::cover_tiles(const SquareGrid& grid, const SquareLists& lists) {
+  if (lists.begin() == lists.end()) return;
+  std::size_t begin = lists.begin(), end = lists.end();
+  if (grid.side_px != kTilePx) {  // all tiles of the rows of squares that have any
+    const auto columns = static_cast<std::uint32_t>(grid.columns);
+    const std::size_t tiles_a_row = tiles().columns * static_cast<std::size_t>(grid.side_px / kTilePx);
+    begin = lists.begin() / columns * tiles_a_row;
+    end = ((lists.end() - 1) / columns + 1) * tiles_a_row;
+  }
+  begin_tile_ = std::min(begin_tile_, begin);
+  end_tile_ = std::max(end_tile_, std::min(end, tiles().size()));
 }
 
 void Bins::fill(MeshView mesh, std::size_t first, std::size_t last, int threads) {
@@ -108,54 +165,37 @@ void Bins::fill(MeshView mesh, std::size_t first, std::size_t last, int threads)
     wide_ = std::make_unique_for_overwrite<ScreenTriangle[]>(capacity_);
   }
   chunks_.resize((last - first + kChunk - 1) / kChunk);
-  parallel_for(chunks_.size(), threads, [&](std::size_t i) {
-    const std::size_t offset = i * kChunk;
-    const BinnedTriangles triangles{placed_.get() + offset, wide_.get() + offset};
-    const SetupCounts made = kernels_.set_up(projection_, mesh, first + offset,
-                                             std::min(first + offset + kChunk, last), triangles);
-    Lists& lists = chunks_[i];
-    for (SquareLists& squares : lists) squares.clear();
-    const auto base = static_cast<std::uint32_t>(offset);
-    for (std::uint32_t k = 0; k < made.wide; ++k) add_wide(base + k, lists);
-    for (std::uint32_t k = 0; k < made.placed; ++k) {
-      const TileTriangle& triangle = triangles.placed[k];
-      lists[0].add(triangle.tile, BinEntry(true, base + k, triangle.nearest));
-    }
-    for (SquareLists& squares : lists) squares.sort();
-  });
-  begin_tile_ = grids_[0].size();
+  parallel_for(chunks_.size(), threads, [&](std::size_t i) { fill_chunk(mesh, first, last, i); });
+  begin_tile_ = tiles().size();
   end_tile_ = 0;
   for (const Lists& lists : chunks_) {
-    for (std::size_t g = 0; g < kGrids; ++g) {
-      if (lists[g].begin() == lists[g].end()) continue;
-      // The tiles of the rows of squares that have any.
-      const int growth = grids_[g].side_px / kTilePx;
-      const auto row_of = [&](std::uint32_t square) {
-        return static_cast<int>(square) / grids_[g].columns * growth;
-      };
-      const std::size_t columns = static_cast<std::size_t>(grids_[0].columns);
-      const std::size_t begin =
-          g == 0 ? lists[g].begin() : static_cast<std::size_t>(row_of(lists[g].begin())) * columns;
-      const std::size_t end =
-          g == 0 ? lists[g].end() : static_cast<std::size_t>(row_of(lists[g].end() - 1) + growth) * columns;
-      begin_tile_ = std::min(begin_tile_, begin);
-      end_tile_ = std::min(std::max(end_tile_, end), grids_[0].size());
-    }
+    for (std::size_t g = 0; g < kGrids; ++g) cover_tiles(grids_[g], lists.wide[g]);
+    cover_tiles(tiles(), lists.placed);
   }
 }
 
-void Bins::list(std::size_t tile, std::vector<BinEntry>& entries) const {
-  const int column = static_cast<int>(tile % static_cast<std::size_t>(grids_[0].columns));
-  const int row = static_cast<int>(tile / static_cast<std::size_t>(grids_[0].columns));
-  entries.clear();
-  for (std::size_t g = kGrids; g-- > 0;) {
-    const int growth = grids_[g].side_px / kTilePx;
-    const auto square = static_cast<std::uint32_t>(row / growth * grids_[g].columns + column / growth);
-    for (const Lists& lists : chunks_) {
-      const std::span<const BinEntry> list = lists[g].list(square);
-      entries.insert(entries.end(), list.begin(), list.end());
+std::vector<BinEntry> Bins::list(std::size_t tile) const {
+  const int column = static_cast<int>(tile % static_cast<std::size_t>(tiles().columns));
+  const int row = static_cast<int>(tile / static_cast<std::size_t>(tiles().columns));
+  std::vector<BinEntry> wide;
+  std::size_t placed = 0;
+  for (const Lists& lists : chunks_) {
+    for (std::size_t g = 0; g < kGrids; ++g) {
+      const int growth = grids_[g].side_px / kTilePx;
+      const std::span<const BinEntry> list =
+          lists.wide[g].list(static_cast<std::uint32_t>(row / growth * grids_[g].columns + column / growth));
+      wide.insert(wide.end(), list.begin(), list.end());
     }
+    placed += lists.placed.list(static_cast<std::uint32_t>(tile)).size();
   }
+  std::vector<BinEntry> entries;
+  entries.reserve(wide.size() + placed);
+  order_by_depth(wide, entries);
+  for (const Lists& lists : chunks_) {
+    const std::span<const BinEntry> list = lists.placed.list(static_cast<std::uint32_t>(tile));
+    entries.insert(entries.end(), list.begin(), list.end());
+  }
+  return entries;
 }
 
 }  // namespace plumb::detail

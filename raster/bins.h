@@ -44,13 +44,13 @@ class SquareLists {
 
 /// Triangles set up, and which tiles each may touch: filled batch by batch, its memory kept.
 ///
-/// A triangle is listed with the squares of one of several grids that it may touch: tiles, or squares 8 or 64
-/// times as wide, the finest where they are few. That bounds the lists' memory, and a tile is seen by the
-/// lists of the squares that it lies in.
+/// A triangle in one tile is listed with it. A wide one is listed with the squares of one of several grids
+/// that it may touch: tiles, or squares 8 or 64 times as wide, the finest where they are few. That bounds the
+/// lists' memory; a tile's triangles are those of all squares that it lies in.
 class Bins {
  public:
   /// Triangles of a batch.
-  static constexpr std::size_t kBatch = std::size_t{1} << 16;
+  static constexpr std::size_t kBatch = std::size_t{1} << 18;
 
   Bins(const Projection& projection, const RasterKernels& kernels);
 
@@ -63,14 +63,20 @@ class Bins {
   /// The tiles that may be touched lie from this to before end_tile().
   std::size_t begin_tile() const { return begin_tile_; }
   std::size_t end_tile() const { return end_tile_; }
-  /// Replaces `entries` by the triangles that may touch the tile, wide ones first.
-  void list(std::size_t tile, std::vector<BinEntry>& entries) const;
+  /// The triangles that may touch the tile: wide ones, roughly from front to back, then the others.
+  std::vector<BinEntry> list(std::size_t tile) const;
 
  private:
   static constexpr int kGrids = 3;
-  using Lists = std::array<SquareLists, kGrids>;  // of the part of a batch that one thread sets up
+  // Of the part of a batch that one thread sets up.
+  struct Lists {
+    std::array<SquareLists, kGrids> wide;
+    SquareLists placed;
+  };
 
+  void fill_chunk(MeshView mesh, std::size_t first, std::size_t last, std::size_t chunk);
   void add_wide(std::uint32_t index, Lists& lists) const;
+  void cover_tiles(const SquareGrid& grid, const SquareLists& lists);
 
   const Projection& projection_;
   const RasterKernels& kernels_;

@@ -76,8 +76,7 @@ void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, Frame& fra
 }
 
 void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const {
-  std::vector<BinEntry> entries;
-  bins_.list(tile, entries);
+  const std::vector<BinEntry> entries = bins_.list(tile);
   if (entries.empty()) return;
   const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
   const TileTask task{camera_,

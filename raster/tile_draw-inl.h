@@ -60,41 +60,47 @@ inline void DecidePixels(const TileTask& task, TileState& state, int block, std:
   SetBounds(state, block, pixels);
 }
 
+// The planes at a block's centre.
+HWY_INLINE void PlanesAt(const TileTriangle& triangle, int block, float centre[4]) {
+  const hn::CappedTag<float, 4> d;
+  for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    const auto row = hn::MulAdd(hn::Load(d, triangle.b + i), hn::Set(d, kCentres.block_y[block]),
+                                hn::Load(d, triangle.c + i));
+    hn::Store(hn::MulAdd(hn::Load(d, triangle.a + i), hn::Set(d, kCentres.block_x[block]), row), d,
+              centre + i);
+  }
+}
+
+// A plane at the pixels of a block from `lane` on.
+template <class D>
+HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const float centre[4], int plane,
+                                    size_t lane) {
+  const auto column = hn::Mul(hn::Set(d, triangle.a[plane]), hn::Load(d, kCentres.pixel_x + lane));
+  const auto row = hn::MulAdd(hn::Set(d, triangle.b[plane]), hn::Load(d, kCentres.pixel_y + lane),
+                              hn::Set(d, centre[plane]));
+  return hn::Add(column, row);
+}
+
 // Draws the triangle into a block; with `kFull` it certainly covers every pixel.
 template <bool kFull>
 HWY_INLINE void DrawBlock(const TileTask& task, const TileTriangle& triangle, bool side_open, int block,
                           TileState& state) {
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  HWY_ALIGN float centre[4];  // the planes at the block's centre
-  const hn::CappedTag<float, 4> d4;
-  for (size_t i = 0; i < 4; i += hn::Lanes(d4)) {
-    const auto row = hn::MulAdd(hn::Load(d4, triangle.b + i), hn::Set(d4, kCentres.block_y[block]),
-                                hn::Load(d4, triangle.c + i));
-    hn::Store(hn::MulAdd(hn::Load(d4, triangle.a + i), hn::Set(d4, kCentres.block_x[block]), row), d4,
-              centre + i);
-  }
-  const auto block_low = hn::Set(d, state.block_low[block]);
+  HWY_ALIGN float centre[4];
+  PlanesAt(triangle, block, centre);
   std::uint32_t won_bits = 0, depth_open = 0, edge_open = 0;
-  bool farthest_stays = false;
-  for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
-    const auto px = hn::Load(d, kCentres.pixel_x + lane);
-    const auto py = hn::Load(d, kCentres.pixel_y + lane);
-    const auto value = [&](int i) HWY_ATTR {
-      return hn::MulAdd(hn::Set(d, triangle.a[i]), px,
-                        hn::MulAdd(hn::Set(d, triangle.b[i]), py, hn::Set(d, centre[i])));
-    };
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
+    const auto inverse = PlaneAtPixels(d, triangle, centre, 3, lane);
     const auto error = hn::Set(d, triangle.error[3]);
-    const auto inverse = value(3);
     const auto low = hn::Sub(inverse, error);
     const auto high = hn::Add(inverse, error);
-    const auto old_low = hn::Load(d, state.inverse_low + offset);
-    auto closed = hn::Lt(high, old_low);
+    auto closed = hn::Lt(high, hn::Load(d, state.inverse_low + offset));
     auto covered = hn::Not(closed);
     if constexpr (!kFull) {
       for (int i = 0; i < 3; ++i) {
-        const auto edge = value(i);
+        const auto edge = PlaneAtPixels(d, triangle, centre, i, lane);
         closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
         covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
       }
@@ -106,19 +112,15 @@ HWY_INLINE void DrawBlock(const TileTask& task, const TileTriangle& triangle, bo
     won_bits |= MaskBits(d, won) << lane;
     depth_open |= MaskBits(d, hn::AndNot(won, covered)) << lane;
     if constexpr (!kFull) edge_open |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
-    farthest_stays |= !hn::AllFalse(d, hn::AndNot(won, hn::Le(old_low, block_low)));
   }
-  if (HWY_UNLIKELY((depth_open | edge_open) != 0)) {
-    if (side_open) {
-      edge_open |= depth_open;
-      depth_open = 0;
-    }
-    if (depth_open != 0) DecideDepths(task, state, block, triangle.index, depth_open);
-    if (edge_open != 0) DecidePixels(task, state, block, triangle.index, edge_open);
-  } else if (farthest_stays) {
-    return;
+  state.changed |= std::uint64_t{(won_bits | depth_open | edge_open) != 0} << block;
+  if (HWY_LIKELY((depth_open | edge_open) == 0)) return;
+  if (side_open) {
+    edge_open |= depth_open;
+    depth_open = 0;
   }
-  if ((won_bits | depth_open | edge_open) != 0) UpdateBlock(state, block);
+  if (depth_open != 0) DecideDepths(task, state, block, triangle.index, depth_open);
+  if (edge_open != 0) DecidePixels(task, state, block, triangle.index, edge_open);
 }
 
 // The blocks of a tile that hold pixels of the triangle's box, one bit each.
@@ -129,7 +131,8 @@ HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
   return columns * 0x0101010101010101u & rows;
 }
 
-HWY_INLINE void DrawPlaced(const TileTask& task, const TileTriangle& triangle, bool side_open,
+// Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
+HWY_INLINE void DrawBlocks(const TileTask& task, const TileTriangle& triangle, bool side_open,
                            TileState& state) {
   const hn::CappedTag<float, 16> d;
   const std::uint64_t box = BoxBlocks(triangle);
@@ -155,7 +158,7 @@ HWY_INLINE void DrawPlaced(const TileTask& task, const TileTriangle& triangle, b
   }
 }
 
-// A triangle of a box of few blocks.
+// Draws a triangle whose box has few blocks.
 HWY_INLINE void DrawSmall(const TileTask& task, const TileTriangle& triangle, TileState& state) {
   const int x1 = triangle.x1 / kBlockPx, y1 = triangle.y1 / kBlockPx;
   for (int y = triangle.y0 / kBlockPx; y <= y1; ++y) {
@@ -170,10 +173,10 @@ HWY_INLINE void DrawWide(const TileTask& task, const ScreenTriangle& triangle, T
     return;
   TileTriangle placed;
   PlaceTriangle(triangle, task.x, task.y, placed);
-  if (!OutsideTile(placed)) DrawPlaced(task, placed, triangle.side_open, state);
+  if (!OutsideTile(placed)) DrawBlocks(task, placed, triangle.side_open, state);
   if (HWY_LIKELY(!triangle.side_open)) return;
   TurnEdges(placed);
-  DrawPlaced(task, placed, true, state);
+  DrawBlocks(task, placed, true, state);
 }
 
 inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
@@ -191,7 +194,7 @@ inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
   for (size_t i = 0; i < entries.size(); ++i) {
     if (i + kAhead < entries.size()) prefetch(entries[i + kAhead]);
     const BinEntry entry = entries[i];
-    if (i % 16 == 0) UpdateTile(state);
+    if (i % 8 == 0) UpdateLows(state);
     if (entry.nearest < state.tile_low) continue;  // hidden in all of the tile
     if (!entry.placed()) {
       DrawWide(task, triangles.wide[entry.index()], state);
@@ -202,7 +205,7 @@ inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
         triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
       DrawSmall(task, triangle, state);
     } else {
-      DrawPlaced(task, triangle, false, state);
+      DrawBlocks(task, triangle, false, state);
     }
   }
   StoreTile(task, state, frame);

@@ -54,9 +54,9 @@ constexpr CentreOffsets kCentres;
 // lie outside the frame, beyond what ScreenTriangle::error speaks of, but not beyond 2 M). What
 // underflows is far below 2^-140, which is added.
 //
-// For 1/t, ScreenTriangle's relative error is u / 4. And two hits whose bounds do not meet must also
-// round to different depths: 1.1 u of 1/t more on either side makes 1/t differ by 2.2 u of itself, t by more
-// than the spacing of floats (below kGreatestInverse; above it t comes near the subnormal numbers, and
+// For 1/t, ScreenTriangle's relative error is u / 4. And two hits whose bounds do not meet must
+// also round to different depths: 1.1 u of 1/t more on either side makes 1/t differ by 2.2 u of itself, t by
+// more than the spacing of floats (below kGreatestInverse; above it t comes near the subnormal numbers, and
 // nothing is certain).
 constexpr double kTileU = 0x1p-24;
 HWY_ALIGN constexpr double kPlaneRelative[4] = {6.5 * kTileU, 6.5 * kTileU, 6.5 * kTileU, 7.9 * kTileU};

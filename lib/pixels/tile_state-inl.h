@@ -68,8 +68,11 @@ HWY_INLINE void UpdateBlock(TileState& state, int block) {
   state.block_low[block] = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-// Takes the tile's least bound anew, from its blocks'.
-HWY_INLINE void UpdateTile(TileState& state) {
+// Takes the changed blocks' least bounds anew, and the tile's.
+HWY_INLINE void UpdateLows(TileState& state) {
+  if (state.changed == 0) return;
+  for (; state.changed != 0; state.changed &= state.changed - 1)
+    UpdateBlock(state, static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(state.changed)));
   const hn::CappedTag<float, 16> d;
   auto least = hn::Load(d, state.block_low);
   for (size_t i = hn::Lanes(d); i < kTileBlocks * kTileBlocks; i += hn::Lanes(d))
@@ -125,8 +128,8 @@ inline void LoadTile(const TileTask& task, const Frame& frame, TileState& state)
     hn::Store(hn::Set(du, TileState::kEarlier), du, state.winner + offset);
     hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
   }
-  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block) UpdateBlock(state, block);
-  UpdateTile(state);
+  state.changed = ~std::uint64_t{0};
+  UpdateLows(state);
 }
 
 // The corners of a block's triangles, each pixel its own.

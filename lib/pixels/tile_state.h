@@ -41,6 +41,8 @@ struct TileState {
   /// of it. They may be out of date, for a pixel's answer only ever comes nearer.
   alignas(64) float block_low[kTileBlocks * kTileBlocks];
   float tile_low;
+  /// Blocks whose pixels' bounds have changed since block_low was computed, a bit each.
+  std::uint64_t changed;
 };
 
 /// Computes (t, id) of the pixel's winner, which covers it for certain.
