@@ -150,7 +150,8 @@ void Bins::cover_tiles(const SquareGrid& grid, const SquareLists& lists) {
   std::size_t begin = lists.begin(), end = lists.end();
   if (grid.side_px != kTilePx) {  // all tiles of the rows of squares that have any
     const auto columns = static_cast<std::uint32_t>(grid.columns);
-    const std::size_t tiles_a_row = tiles().columns * static_cast<std::size_t>(grid.side_px / kTilePx);
+    const std::size_t tiles_a_row =
+        static_cast<std::size_t>(tiles().columns) * static_cast<std::size_t>(grid.side_px / kTilePx);
     begin = lists.begin() / columns * tiles_a_row;
     end = ((lists.end() - 1) / columns + 1) * tiles_a_row;
   }

@@ -62,24 +62,50 @@ bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(
 }  // namespace
 
 TEST_SUITE("built-in scenes") {
+  struct Known {
+    std::string name;
+    std::uint64_t hash;
+  };
+  // By default and at another size.
+  const Known kKnown[] = {
+      {"teapot-in-stadium", 0xc039454b8d568825u},
+      {"teapot-in-stadium:7000", 0x3f075334142ce827u},
+      {"terrain", 0xa73f3667e30a25e2u},
+      {"terrain:5000", 0x56f7d5d345e418c2u},
+      {"grid", 0xd3f8ad77d9b6255fu},
+      {"grid:45", 0x09bbb24540f93a7fu},
+      {"grass", 0x85276f6087732cd2u},
+      {"grass:5000", 0xe431acc840f84be6u},
+      {"soup", 0x1d25c36b10348257u},
+      {"soup:5000", 0xfd13361724ba3b70u},
+      {"spheres", 0xf49a8d5171e0ff23u},
+      {"spheres:5000", 0x12249ee0a2d5069fu},
+      {"quads", 0x45acfcd47f58f125u},
+      {"quads:10", 0x009d5fef6c5f8cddu},
+      {"cornell", 0x6289aa7e858bc2b5u},
+      {"cornell:5000", 0x137599ff710d6252u},
+      {"ties", 0x2ab38d8d4abd0098u},
+      {"ties:5000", 0x0b34a7e515ff6a53u},
+  };
+
   TEST_CASE("every scene is the same bits everywhere, by default and at another size") {
-    CHECK(hash_of(builtin_scene("teapot-in-stadium")) == 0xc039454b8d568825u);
-    CHECK(hash_of(builtin_scene("teapot-in-stadium:7000")) == 0x3f075334142ce827u);
-    CHECK(hash_of(builtin_scene("terrain")) == 0xa73f3667e30a25e2u);
-    CHECK(hash_of(builtin_scene("terrain:5000")) == 0x56f7d5d345e418c2u);
-    CHECK(hash_of(builtin_scene("grid")) == 0xd3f8ad77d9b6255fu);
-    CHECK(hash_of(builtin_scene("grid:45")) == 0x09bbb24540f93a7fu);
+    CHECK(std::size(kKnown) == 2 * builtin_scenes().size());
+    for (const Known& known : kKnown) {
+      CAPTURE(known.name);
+      CHECK(hash_of(builtin_scene(known.name)) == known.hash);
+    }
   }
 
 #if defined(__SSE2__)
   TEST_CASE("the caller's floating-point mode changes no bit") {
-    for (const char* name : {"teapot-in-stadium:7000", "terrain:5000", "grid:45"}) {
-      const std::uint64_t expected = hash_of(builtin_scene(name));
+    for (const Known& known : kKnown) {
+      if (known.name.find(':') == std::string::npos) continue;
+      CAPTURE(known.name);
       const detail::FpMode saved = detail::fp_mode();
       detail::set_fp_mode(saved | 0xe040u);  // FTZ, DAZ, toward zero
-      const std::uint64_t hash = hash_of(builtin_scene(name));
+      const std::uint64_t hash = hash_of(builtin_scene(known.name));
       detail::set_fp_mode(saved);
-      CHECK(hash == expected);
+      CHECK(hash == known.hash);
     }
   }
 #endif
@@ -105,7 +131,8 @@ TEST_SUITE("built-in scenes") {
 
   TEST_CASE("a size in triangles is met within a fifth") {
     for (const std::size_t size : {2'000u, 10'000u, 50'000u, 320'000u, 1'000'000u}) {
-      for (const char* name : {"teapot-in-stadium:", "terrain:"}) {
+      for (const char* name :
+           {"teapot-in-stadium:", "terrain:", "grass:", "soup:", "spheres:", "cornell:", "ties:"}) {
         CAPTURE(name);
         CAPTURE(size);
         const double triangles =

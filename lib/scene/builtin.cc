@@ -28,6 +28,18 @@ constexpr Entry kEntries[] = {
      "a relief of blocks on integer coordinates; in frames of 720, 1080 or 512 lines, or half as many, "
      "pixel rays meet its vertices and edges exactly",
      384, 1, 4096, "blocks in a row of the upper half", detail::grid},
+    {"grass", "a meadow of thin bent blades, seen from just above them", 500'000, 7, 50'000'000,
+     "triangles, about", detail::grass},
+    {"soup", "triangles of no order strewn through a cube, smaller the more there are", 200'000, 1,
+     50'000'000, "triangles", detail::soup},
+    {"spheres", "a cloud of spheres of very different sizes, each of them closed", 500'000, 8, 50'000'000,
+     "triangles, about", detail::spheres},
+    {"quads", "layers that each fill the whole view, the farthest first", 256, 1, 1'000'000, "layers",
+     detail::quads},
+    {"cornell", "the Cornell box, whose lamp lies in the plane of the ceiling", 32, 32, 50'000'000,
+     "triangles, about", detail::cornell},
+    {"ties", "stacks of triangles at equal and nearly equal depths, in shuffled order", 100'000, 64,
+     10'000'000, "triangles, about", detail::ties},
 };
 
 const Entry& find_entry(std::string_view name) {

@@ -20,6 +20,16 @@ BuiltinScene terrain(std::size_t size);
 /// `size` is the number of columns of blocks.
 BuiltinScene grid(std::size_t size);
 
+/// `size` is about the number of triangles. The same for those below.
+BuiltinScene grass(std::size_t size);
+BuiltinScene soup(std::size_t size);
+BuiltinScene spheres(std::size_t size);
+BuiltinScene cornell(std::size_t size);
+BuiltinScene ties(std::size_t size);
+
+/// `size` is the number of layers.
+BuiltinScene quads(std::size_t size);
+
 /// Appends the stadium: pitch, stands with seats, roof, a plinth at the centre spot whose top is
 /// kPlinthHeight above the pitch. y is up, lengths are metres, the pitch's centre is the origin.
 /// `detail` scales the number of rows, seats and segments along each dimension; 1 gives real sizes.

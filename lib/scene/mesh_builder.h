@@ -52,6 +52,11 @@ inline std::uint32_t hash_bits(std::uint32_t x, std::uint32_t y, std::uint32_t s
   return mix(x + 0x9e3779b9u * mix(y + 0x9e3779b9u * mix(seed)));
 }
 
+/// The same as a number from 0 to 1 (excluded), with 24 bits.
+inline double hash_unit(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
+  return (hash_bits(x, y, seed) >> 8) * 0x1p-24;
+}
+
 /// Cosine and sine of an angle.
 struct Turn {
   double cos, sin;

@@ -13,11 +13,10 @@ namespace {
 constexpr double kExtent = 4096.0;  // metres, of each side
 constexpr int kOctaves = 9;
 
-// 0 to 1, with 24 bits.
+// 0 to 1.
 double lattice_value(std::int64_t x, std::int64_t z, int octave) {
-  const std::uint32_t bits = hash_bits(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(z),
-                                       static_cast<std::uint32_t>(octave));
-  return (bits >> 8) * 0x1p-24;
+  return hash_unit(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(z),
+                   static_cast<std::uint32_t>(octave));
 }
 
 double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
