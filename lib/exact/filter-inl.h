@@ -16,7 +16,8 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Tests the triangles of a block's lanes [offset, offset + Lanes(d)) against the ray.
+// The edge functions, their sum, det(a, b, c) and R = |v0 - o|_max of a block's lanes [offset, offset +
+// Lanes(d)).
 //
 // The values are those of exact/intersect.cc's double stage, and so are the bounds with u = 2^-24:
 //     |error of E0, E1, E2| <= 9.01 u D L (2 R + L),  of den <= 7.01 u D L^2,  of T <= 8.01 u R L^2
@@ -30,13 +31,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 //   2^-147, and 0.09 * 2^-24 R L^2 > 2^-88 R.
 // - Overflow. FilterRay's scales are infinite for a ray whose products with this scene could
 //   exceed 2^120. Then every lane is `possible`, none `certain`, none too far.
-//
-// `possible` lanes may be hits nearer than FilterRay::limit and need a decision; of these, `certain`
-// lanes are covered, with a denominator that is not zero: only their depth is open. All others are
-// certainly misses or certainly farther than the limit.
 template <class D, int W, template <int> class Block>
-HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block, size_t offset,
-                                hn::Mask<D>& possible, hn::Mask<D>& certain) {
+HWY_INLINE void FilterValues(D d, const FilterRay& ray, const Block<W>& block, size_t offset,
+                             hn::Vec<D>& edge0, hn::Vec<D>& edge1, hn::Vec<D>& edge2, hn::Vec<D>& den,
+                             hn::Vec<D>& t_num, hn::Vec<D>& reach) {
   using V = hn::Vec<D>;
   const auto load = [&](int v, int axis) HWY_ATTR { return hn::Load(d, block.vertex[v][axis] + offset); };
   const V v0x = load(0, 0), v0y = load(0, 1), v0z = load(0, 2);
@@ -56,16 +54,30 @@ HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block
   const V ny = hn::MulSub(e1z, e2x, hn::Mul(e1x, e2z));
   const V nz = hn::MulSub(e1x, e2y, hn::Mul(e1y, e2x));
 
-  const V edge0 = hn::MulAdd(e1z, mz, hn::MulAdd(e1y, my, hn::Mul(e1x, mx)));
+  edge0 = hn::MulAdd(e1z, mz, hn::MulAdd(e1y, my, hn::Mul(e1x, mx)));
   const V edge2_negated = hn::MulAdd(e2z, mz, hn::MulAdd(e2y, my, hn::Mul(e2x, mx)));
-  const V den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
-  const V edge1 = hn::Add(hn::Sub(den, edge0), edge2_negated);
-  const V edge2 = hn::Neg(edge2_negated);
+  den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
+  edge1 = hn::Add(hn::Sub(den, edge0), edge2_negated);
+  edge2 = hn::Neg(edge2_negated);
+  t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
+  reach = hn::Max(hn::Abs(ax), hn::Max(hn::Abs(ay), hn::Abs(az)));
+}
+
+// Tests the triangles of a block's lanes [offset, offset + Lanes(d)) against the ray.
+//
+// `possible` lanes may be hits nearer than FilterRay::limit and need a decision; of these, `certain`
+// lanes are covered, with a denominator that is not zero: only their depth is open. All others are
+// certainly misses or certainly farther than the limit.
+template <class D, int W, template <int> class Block>
+HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block, size_t offset,
+                                hn::Mask<D>& possible, hn::Mask<D>& certain) {
+  using V = hn::Vec<D>;
+  V edge0, edge1, edge2, den, t_num, reach;
+  FilterValues(d, ray, block, offset, edge0, edge1, edge2, den, t_num, reach);
   const V e_min = hn::Min(edge0, hn::Min(edge1, edge2));
   const V e_max = hn::Max(edge0, hn::Max(edge1, edge2));
 
   const V extent = hn::Load(d, block.extent + offset);
-  const V reach = hn::Max(hn::Abs(ax), hn::Max(hn::Abs(ay), hn::Abs(az)));
   const V scaled = hn::Mul(extent, hn::Set(d, ray.edge_scale));
   const V error = hn::Mul(scaled, hn::Add(hn::Add(reach, reach), extent));
   const V minus_error = hn::Neg(error);
@@ -74,7 +86,6 @@ HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block
 
   // Too far: T / den > limit for certain, or T / den < 0 for certain. In the first, |T| > limit |den| by
   // more than the errors; the limit carries slack for the rounding of this comparison itself.
-  const V t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
   const V extent2 = hn::Mul(extent, extent);
   const V t_error = hn::MulAdd(hn::Mul(reach, hn::Set(d, ray.depth_scale)), extent2, hn::Set(d, 0x1p-120f));
   const V den_error = hn::Mul(extent2, hn::Set(d, ray.den_scale));
