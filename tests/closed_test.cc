@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "plumb/builtin.h"
@@ -25,17 +24,22 @@ using hard::Random;
 
 namespace {
 
+struct NamedTree {
+  std::string name;
+  Bvh bvh;
+};
+
 // Of each width the tree of every instruction set.
-std::vector<std::pair<std::string, Bvh>> trees_over(const TriangleMesh& mesh) {
-  std::vector<std::pair<std::string, Bvh>> trees;
+std::vector<NamedTree> trees_over(const TriangleMesh& mesh) {
+  std::vector<NamedTree> trees;
   for (const int width : {2, 4, 8}) {
     for (const Simd simd : simd_targets()) {
       if (width == 2 && simd != simd_targets().front()) continue;
       BuildOptions options;
       options.width = width;
       options.simd = simd;
-      trees.emplace_back("bvh" + std::to_string(width) + " " + std::string(simd_name(simd)),
-                         Bvh(mesh, options));
+      trees.push_back(
+          {"bvh" + std::to_string(width) + " " + std::string(simd_name(simd)), Bvh(mesh, options)});
     }
   }
   return trees;
@@ -122,14 +126,14 @@ TEST_SUITE("closed surfaces") {
     for (const ClosedMesh& closed : hard::closed_meshes()) {
       CAPTURE(closed.name);
       const std::vector<glm::vec3> places = aims(closed.mesh);
-      const auto trees = trees_over(closed.mesh);
+      const std::vector<NamedTree> trees = trees_over(closed.mesh);
       std::vector<Hit> hits;
       for (int i = 0; i < hard::effort(1000); ++i) {
         const glm::vec3 origin = outside_point(random);
         const glm::vec3 direction = random.pick(places) - origin;
-        for (const auto& [name, tree] : trees) {
-          CAPTURE(name);
-          tree.all({origin, 0.0f, direction}, hits);
+        for (const NamedTree& tree : trees) {
+          CAPTURE(tree.name);
+          tree.bvh.all({origin, 0.0f, direction}, hits);
           CHECK(hits.size() % 2 == 0);
           CHECK(alternates(closed.mesh, hits, direction, 0));
           crossings += hits.size();
@@ -141,7 +145,7 @@ TEST_SUITE("closed surfaces") {
 
   TEST_CASE("along the axes, through the planes and edges of a cube, too") {
     const ClosedMesh cube = hard::closed_meshes().front();
-    const auto trees = trees_over(cube.mesh);
+    const std::vector<NamedTree> trees = trees_over(cube.mesh);
     std::vector<Hit> hits;
     for (int axis = 0; axis < 3; ++axis) {
       for (int i = -1088; i <= 1088; i += 64) {
@@ -154,9 +158,9 @@ TEST_SUITE("closed surfaces") {
             ray.direction[axis] = 1024.0f * sign;
             const bool inside = std::abs(i) < 1024 && std::abs(j) < 1024;
             const bool apart = std::abs(i) > 1024 || std::abs(j) > 1024;
-            for (const auto& [name, tree] : trees) {
-              CAPTURE(name);
-              tree.all(ray, hits);
+            for (const NamedTree& tree : trees) {
+              CAPTURE(tree.name);
+              tree.bvh.all(ray, hits);
               CHECK(alternates(cube.mesh, hits, ray.direction, 0));
               if (inside) CHECK(hits.size() == 2);
               if (apart) CHECK(hits.empty());
@@ -177,7 +181,7 @@ TEST_SUITE("closed surfaces") {
       for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
         for (int k = 0; k < 3; ++k) around[mesh.triangles[id][k]].push_back(id);
       }
-      const auto trees = trees_over(mesh);
+      const std::vector<NamedTree> trees = trees_over(mesh);
       std::vector<Hit> hits;
       for (int i = 0; i < hard::effort(600); ++i) {
         const glm::uvec3& t = mesh.triangles[random.below(static_cast<std::uint32_t>(mesh.triangles.size()))];
@@ -197,9 +201,9 @@ TEST_SUITE("closed surfaces") {
           back += s < 0 ? 1 : 0;
         }
         const bool is_around = front + back == static_cast<int>(sheet.size()) && (front == 0 || back == 0);
-        for (const auto& [name, tree] : trees) {
-          CAPTURE(name);
-          tree.all({origin, 0.0f, direction}, hits);
+        for (const NamedTree& tree : trees) {
+          CAPTURE(tree.name);
+          tree.bvh.all({origin, 0.0f, direction}, hits);
           const auto hit = std::count_if(hits.begin(), hits.end(), [&](const Hit& h) {
             return std::find(sheet.begin(), sheet.end(), h.id) != sheet.end();
           });
@@ -223,19 +227,19 @@ TEST_SUITE("closed surfaces") {
     for (const ClosedMesh& closed : hard::closed_meshes()) {
       CAPTURE(closed.name);
       const std::vector<glm::vec3> places = aims(closed.mesh);
-      const auto trees = trees_over(closed.mesh);
+      const std::vector<NamedTree> trees = trees_over(closed.mesh);
       std::vector<Hit> hits;
       for (int i = 0; i < hard::effort(16); ++i) {
         // Half of the points near the middle, where the spindle and the cones are thin.
         const glm::vec3 p = open_point(closed.mesh, random, i % 2 == 0 ? 4 : 1100);
-        trees.front().second.all({p, 0.0f, {0.37f, 0.51f, -0.77f}}, hits);
+        trees.front().bvh.all({p, 0.0f, {0.37f, 0.51f, -0.77f}}, hits);
         const std::size_t parity = hits.size() % 2;
         inside_points += parity;
         for (int j = 0; j < hard::effort(120); ++j) {
           const glm::vec3 direction = random.pick(places) - p;
-          for (const auto& [name, tree] : trees) {
-            CAPTURE(name);
-            tree.all({p, 0.0f, direction}, hits);
+          for (const NamedTree& tree : trees) {
+            CAPTURE(tree.name);
+            tree.bvh.all({p, 0.0f, direction}, hits);
             CHECK(hits.size() % 2 == parity);
             CHECK(alternates(closed.mesh, hits, direction, static_cast<int>(parity)));
           }
@@ -249,14 +253,14 @@ TEST_SUITE("closed surfaces") {
     const TriangleMesh mesh = builtin_scene("spheres:20000").mesh;
     REQUIRE(hard::is_closed(mesh));
     Random random(4);
-    const auto trees = trees_over(mesh);
+    const std::vector<NamedTree> trees = trees_over(mesh);
     std::vector<Hit> hits;
     for (int i = 0; i < hard::effort(4000); ++i) {
       const glm::vec3 origin = outside_point(random) * (1.0f / 1024.0f);
       const glm::vec3 direction = random.pick(mesh.positions) - origin;
-      for (const auto& [name, tree] : trees) {
-        CAPTURE(name);
-        tree.all({origin, 0.0f, direction}, hits);
+      for (const NamedTree& tree : trees) {
+        CAPTURE(tree.name);
+        tree.bvh.all({origin, 0.0f, direction}, hits);
         CHECK(hits.size() % 2 == 0);
       }
     }

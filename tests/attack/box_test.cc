@@ -56,7 +56,8 @@ Touch draw(Random& random) {
   const int enters = random.between(0, 2);
   const int leaves = (enters + random.between(1, 2)) % 3;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t x = random.between(1, is_long ? (1 << 24) - 1 : 2047) * (random.one_in(2) ? 1 : -1);
+    const int magnitude = random.between(1, is_long ? (1 << 24) - 1 : 2047);
+    const std::int64_t x = random.one_in(2) ? magnitude : -magnitude;
     const std::int64_t way = touch.num * x;
     const std::int64_t origin = is_long ? -(way % (1 << 24)) : random.between(-(1 << 22), 1 << 22);
     const auto point = static_cast<float>(origin + way);

@@ -27,7 +27,8 @@ struct Input {
 };
 
 inline float random_float(hard::Random& random, int least_exponent, int greatest_exponent) {
-  return std::ldexp(random.unit(), random.between(least_exponent, greatest_exponent));
+  const float mantissa = random.unit();
+  return std::ldexp(mantissa, random.between(least_exponent, greatest_exponent));
 }
 
 /// Numbers of up to about 2^scale, some down to 2^-depth of that, around a centre of about that size; in half
