@@ -1,0 +1,230 @@
+// Attacks the rasterizer's planes (raster/setup-inl.h, pixels/tile_planes-inl.h): a search for cameras,
+// triangles and pixels whose edge functions and 1/t are as far from those of the pixel's float ray as
+// possible. Each Highway target by itself.
+
+#include "raster/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "attack/raster_planes_test.cc"
+#include "hwy/foreach_target.h"
+// After foreach_target.
+#include "hwy/highway.h"
+#include "raster/setup-inl.h"
+#include "raster/tile_draw-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+// The planes of the mesh's one triangle at a pixel, and their bounds: as values over the frame, where it has
+// such, and about the pixel's tile. False where it is left out, lies elsewhere, or its side is open.
+bool PlaneValues(const Projection& view, MeshView mesh, int x, int y, double screen[2][4],
+                 double tile[2][4]) {
+  TileTriangle placed[9];
+  ScreenTriangle wide[9];
+  const SetupCounts made = SetUpTriangles(view, mesh, 0, 1, {placed, wide});
+  for (int i = 0; i < 4; ++i) screen[0][i] = screen[1][i] = kDoubleInfinity;
+  const int tile_x = x / kTilePx * kTilePx, tile_y = y / kTilePx * kTilePx;
+  if (made.wide == 1) {
+    const ScreenTriangle& triangle = wide[0];
+    if (triangle.side_open || x < triangle.x0 || x > triangle.x1 || y < triangle.y0 || y > triangle.y1)
+      return false;
+    for (int i = 0; i < 4; ++i) {
+      screen[0][i] = triangle.c[i] + triangle.a[i] * x + triangle.b[i] * y;
+      screen[1][i] = double{triangle.error[i]};
+    }
+    PlaceTriangle(triangle, tile_x, tile_y, placed[0]);
+  } else if (made.placed != 1 || static_cast<int>(placed[0].tile) !=
+                                     tile_y / kTilePx * ((view.width - 1) / kTilePx + 1) + x / kTilePx) {
+    return false;
+  }
+  const int block = (y - tile_y) / kBlockPx * kTileBlocks + (x - tile_x) / kBlockPx;
+  const size_t pixel = static_cast<size_t>((y - tile_y) % kBlockPx * kBlockPx + (x - tile_x) % kBlockPx);
+  HWY_ALIGN float centre[4];
+  PlanesAt(placed[0], block, centre);
+  const hn::CappedTag<float, 16> d;
+  for (int i = 0; i < 4; ++i) {
+    HWY_ALIGN float values[16];
+    for (size_t lane = 0; lane < 16; lane += hn::Lanes(d))
+      hn::Store(PlaneAtPixels(d, placed[0], centre, i, lane), d, values + lane);
+    tile[0][i] = double{values[pixel]};
+    tile[1][i] = double{placed[0].error[i]};
+  }
+  return true;
+}
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <doctest/doctest.h>
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "attack/climb.h"
+#include "attack/exact_values.h"
+#include "base/simd_dispatch.h"
+#include "support/effort.h"
+
+namespace plumb::detail {
+namespace {
+
+HWY_EXPORT(PlaneValues);
+
+using attack::ExactValues;
+using attack::Input;
+using hard::Random;
+
+// What is exact of a triangle seen by a pixel: its four planes.
+struct ExactPlanes {
+  mpq_class value[4];
+  bool usable = false;
+};
+
+double to_double(const mpq_class& value) { return value.get_d(); }
+
+// (p x q) . r in full, for p and q seen from the eye.
+mpq_class triple(const glm::vec3& eye, const glm::vec3& p, const glm::vec3& q, const glm::dvec3& r) {
+  mpq_class a[3], b[3];
+  for (int i = 0; i < 3; ++i) {
+    a[i] = mpq_class(double{p[i]}) - mpq_class(double{eye[i]});
+    b[i] = mpq_class(double{q[i]}) - mpq_class(double{eye[i]});
+  }
+  return (a[1] * b[2] - a[2] * b[1]) * mpq_class(r.x) + (a[2] * b[0] - a[0] * b[2]) * mpq_class(r.y) +
+         (a[0] * b[1] - a[1] * b[0]) * mpq_class(r.z);
+}
+
+ExactPlanes exact_planes(const Camera& camera, const Triangle& triangle, int x, int y) {
+  const ExactValues exact(camera.eye, camera.ray(x, y).direction, triangle);
+  ExactPlanes planes;
+  if (exact.t_num == 0) return planes;
+  const glm::vec3 corner[3] = {triangle.v0, triangle.v1, triangle.v2};
+  const mpq_class scale(mpz_class(1), mpz_class(1) << attack::kScaleBits);
+  for (int i = 0; i < 3; ++i) {
+    const glm::vec3& p = corner[i];
+    const glm::vec3& q = corner[(i + 1) % 3];
+    const mpq_class unit =
+        abs(triple(camera.eye, p, q, camera.du)) + abs(triple(camera.eye, p, q, camera.dv));
+    if (unit == 0) return planes;
+    planes.value[i] = mpq_class(exact.edge[i]) * scale / unit;
+    if (exact.t_num < 0) planes.value[i] = -planes.value[i];
+  }
+  planes.value[3] = mpq_class(exact.den, 1) / mpq_class(exact.t_num, 1);
+  planes.usable = true;
+  return planes;
+}
+
+// |computed - exact| / bound, or -1 where the bound says nothing.
+double share(double computed, const mpq_class& exact, double bound) {
+  if (!(bound < std::numeric_limits<double>::infinity())) return -1.0;
+  const mpq_class error = abs(mpq_class(computed) - exact);
+  return to_double(error / mpq_class(bound));
+}
+
+struct Shares {
+  double screen_edge = -1.0, screen_inverse = -1.0, tile_edge = -1.0, tile_inverse = -1.0;
+};
+
+struct Target {
+  Simd simd;
+  Camera camera;
+  int x, y;
+};
+
+Shares shares_of(const Target& target, const Input& input) {
+  const Projection view(target.camera);
+  const Triangle triangle = input.triangle();
+  const TriangleMesh mesh{{triangle.v0, triangle.v1, triangle.v2}, {{0, 1, 2}}};
+  double screen[2][4], tile[2][4];
+  Shares shares;
+  if (view.exact_only ||
+      !PLUMB_DISPATCH(PlaneValues, target.simd)(view, mesh, target.x, target.y, screen, tile))
+    return shares;
+  const ExactPlanes exact = exact_planes(target.camera, triangle, target.x, target.y);
+  if (!exact.usable) return shares;
+  for (int i = 0; i < 3; ++i) {
+    shares.screen_edge = std::max(shares.screen_edge, share(screen[0][i], exact.value[i], screen[1][i]));
+    shares.tile_edge = std::max(shares.tile_edge, share(tile[0][i], exact.value[i], tile[1][i]));
+  }
+  // 1/t has a relative error besides: docs in pixels/screen_triangle.h.
+  const double inverse = std::fabs(to_double(exact.value[3]));
+  shares.screen_inverse =
+      share(screen[0][3], exact.value[3], screen[1][3] + ScreenTriangle::kDepthRelative * inverse);
+  shares.tile_inverse = share(tile[0][3], exact.value[3], tile[1][3]);
+  return shares;
+}
+
+Camera random_camera(Random& random) {
+  const glm::vec3 eye = random.unit3() * 4.0f;
+  const glm::vec3 target = random.unit3();
+  const double degrees = random.one_in(2) ? 50.0 : 0.5;
+  const int width = random.between(1, 2000), height = random.between(1, 2000);
+  return Camera::look_at(eye, target, {0.01f, 1.0f, 0.02f}, degrees, width, height);
+}
+
+// Corners on the rays of pixels around the one looked at, mostly: near it or all over the frame.
+Input random_triangle(Random& random, const Target& target) {
+  Input input{};
+  const int spread = random.one_in(2) ? 6 : std::max(target.camera.width, target.camera.height);
+  for (std::size_t v = 0; v < 3; ++v) {
+    const int x = target.x + random.between(-spread, spread), y = target.y + random.between(-spread, spread);
+    const Ray ray = target.camera.ray(x, y);
+    const float depth = std::ldexp(1.5f + 0.5f * random.unit(), random.between(-4, 10));
+    for (int axis = 0; axis < 3; ++axis)
+      input.value[6 + 3 * v + static_cast<std::size_t>(axis)] =
+          ray.origin[axis] + depth * ray.direction[axis];
+  }
+  return input;
+}
+
+double tightest(Simd simd, std::uint64_t seed, double Shares::*which) {
+  Random random(seed);
+  double greatest = -1.0;
+  for (int start = 0; start < hard::effort(40); ++start) {
+    Target target{simd, random_camera(random), 0, 0};
+    target.x = random.between(0, target.camera.width - 1);
+    target.y = random.between(0, target.camera.height - 1);
+    const auto draw = [&](Random& r) { return random_triangle(r, target); };
+    const auto objective = [&](const Input& input) {
+      for (const float f : input.value) {
+        if (!std::isfinite(f)) return -1.0;
+      }
+      return shares_of(target, input).*which;
+    };
+    greatest = std::max(greatest, attack::climb(random, 1, hard::effort(400), draw, objective));
+  }
+  return greatest;
+}
+
+}  // namespace
+
+TEST_SUITE("attack: the rasterizer's planes") {
+  TEST_CASE("the bounds hold on every target, and the search comes near them") {
+    struct {
+      std::string name;
+      double Shares::*which;
+      double found;  // what the search is known to reach: less says that the bound grew or it got worse
+    } const bounds[] = {{"edge functions over the frame", &Shares::screen_edge, 0.6},
+                        {"1/t over the frame", &Shares::screen_inverse, 0.5},
+                        {"edge functions about a tile", &Shares::tile_edge, 0.5},
+                        {"1/t about a tile", &Shares::tile_inverse, 0.45}};
+    for (const Simd simd : simd_targets()) {
+      std::uint64_t seed = 1;
+      for (const auto& bound : bounds) {
+        const double greatest = tightest(simd, ++seed, bound.which);
+        MESSAGE(std::string(simd_name(simd))
+                << ", " << bound.name << ": the greatest error found is " << greatest << " of its bound");
+        CHECK(greatest <= 1.0);
+        CHECK(greatest > bound.found / hard::kEffortDivisor);
+      }
+    }
+  }
+}
+
+}  // namespace plumb::detail
+#endif
