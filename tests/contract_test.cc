@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -45,7 +46,7 @@ std::vector<Call> calls() {
           {"cast",
            [camera](int threads, const Progress& progress) {
              Frame frame(kWidth, kHeight);
-             cast(build(1), camera(), frame, {threads, progress});
+             cast(build(1), camera(), frame, {.threads = threads, .progress = progress});
            }},
           {"rasterize", [camera](int threads, const Progress& progress) {
              Frame frame(kWidth, kHeight);
@@ -108,7 +109,7 @@ TEST_SUITE("contract") {
       CHECK(frame.depth == before.depth);
       CHECK(frame.id == before.id);
     };
-    const auto cast_all = [&](Frame& frame) { cast(bvh, camera, frame, {-1, nullptr}); };
+    const auto cast_all = [&](Frame& frame) { cast(bvh, camera, frame, {.threads = -1}); };
     unchanged_after_error(cast_all, marked_frame());
     RasterOptions options;
     options.threads = -1;
@@ -126,6 +127,41 @@ TEST_SUITE("contract") {
     unchanged_after_error([&](Frame& frame) { cast(BruteForce({}), camera, frame); }, torn);
     unchanged_after_error([&](Frame& frame) { rasterize(scene().mesh, camera, frame); }, torn);
     unchanged_after_error([&](Frame& frame) { Rasterizer(camera).resolve(frame); }, torn);
+  }
+
+  TEST_CASE("a tree or a frame's rays can be had on any instruction set, with the same answer") {
+    const Camera camera = scene().camera(kWidth, kHeight);
+    for (const int width : {2, 4, 8}) {
+      BuildOptions options;
+      options.width = width;
+      options.simd = simd_targets().back();
+      const Bvh bvh(scene().mesh, options);
+      Frame expected(kWidth, kHeight);
+      cast(bvh, camera, expected);
+      for (const Simd simd : simd_targets()) {
+        CAPTURE(width);
+        CAPTURE(simd_name(simd));
+        Frame frame = marked_frame();
+        cast(bvh, camera, frame, {.simd = simd});
+        CHECK(compare(frame, expected).equal());
+        const Bvh other = bvh.with_simd(simd);
+        CHECK(other.closest(camera.ray(5, 5)) == bvh.closest(camera.ray(5, 5)));
+        CHECK(other.statistics().bytes == bvh.statistics().bytes);
+      }
+    }
+  }
+
+  TEST_CASE("an instruction set that is not there is an error that lists those that are") {
+    const std::vector<Simd> targets = simd_targets();
+    Simd missing = Simd::Sve;
+    if (std::find(targets.begin(), targets.end(), missing) != targets.end()) missing = Simd::Avx2;
+    const Camera camera = scene().camera(kWidth, kHeight);
+    const Bvh bvh = build(1);
+    Frame frame = marked_frame();
+    CHECK_THROWS_AS(cast(bvh, camera, frame, {.simd = missing}), Error);
+    CHECK_THROWS_AS(cast(BruteForce({}), camera, frame, {.simd = missing}), Error);
+    CHECK_THROWS_AS(bvh.with_simd(missing), Error);
+    CHECK(frame.id == marked_frame().id);
   }
 
   TEST_CASE("a copy shares its tree and outlives the original, and the mesh is not needed any more") {

@@ -22,13 +22,15 @@
 namespace plumb {
 
 struct Bvh::Impl {
-  std::variant<detail::BinaryScene, detail::WideTree<4>, detail::WideTree<8>> structure;
+  using Structure = std::variant<detail::BinaryScene, detail::WideTree<4>, detail::WideTree<8>>;
+
+  std::shared_ptr<const Structure> structure;  // shared by the same tree on several instruction sets
   detail::QueryTable queries{};
   Statistics statistics;
 
   /// What `queries` take as their structure.
   const void* data() const {
-    return std::visit([](const auto& s) { return static_cast<const void*>(&s); }, structure);
+    return std::visit([](const auto& s) { return static_cast<const void*>(&s); }, *structure);
   }
 };
 
@@ -57,22 +59,25 @@ Statistics statistics_of(const detail::WideTree<W>& tree) {
   return detail::tree_statistics(tree);
 }
 
+detail::QueryTable queries_for(int width, Simd simd) {
+  if (width == 2) return detail::binary_queries();
+  return width == 4 ? detail::wide4_queries(simd) : detail::wide8_queries(simd);
+}
+
+Bvh::Impl::Structure make_structure(BinaryTree tree, MeshView mesh, int width, const BuildOptions& options) {
+  if (width == 2) return detail::make_binary_scene(std::move(tree), mesh, options.first_id);
+  if (width == 4) return detail::collapse<4>(tree, mesh, options.first_id, options.threads);
+  return detail::collapse<8>(tree, mesh, options.first_id, options.threads);
+}
+
 void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& options) {
   detail::Progress progress(options.progress, mesh.triangles.size());
   BinaryTree tree = detail::build_binned_sah(mesh, build_options(width, options), progress);
   const std::uint32_t unseen = tree.unseen;
-  const Simd simd = detail::resolve_simd(options.simd);
-  if (width == 2) {
-    impl.structure = detail::make_binary_scene(std::move(tree), mesh, options.first_id);
-    impl.queries = detail::binary_queries();
-  } else if (width == 4) {
-    impl.structure = detail::collapse<4>(tree, mesh, options.first_id, options.threads);
-    impl.queries = detail::wide4_queries(simd);
-  } else {
-    impl.structure = detail::collapse<8>(tree, mesh, options.first_id, options.threads);
-    impl.queries = detail::wide8_queries(simd);
-  }
-  impl.statistics = std::visit([](const auto& s) { return statistics_of(s); }, impl.structure);
+  impl.queries = queries_for(width, detail::resolve_simd(options.simd));
+  impl.structure =
+      std::make_shared<const Bvh::Impl::Structure>(make_structure(std::move(tree), mesh, width, options));
+  impl.statistics = std::visit([](const auto& s) { return statistics_of(s); }, *impl.structure);
   impl.statistics.triangles = mesh.triangles.size();
   impl.statistics.unseen_triangles = unseen;
 }
@@ -106,6 +111,14 @@ void Bvh::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
 }
 void Bvh::any(std::span<const Ray> rays, std::span<bool> hits) const {
   detail::any_of_span(impl_->queries, impl_->data(), rays, hits);
+}
+
+Bvh Bvh::with_simd(Simd simd) const {
+  auto impl = std::make_shared<Impl>(*impl_);
+  impl->queries = queries_for(impl_->statistics.width, detail::resolve_simd(simd));
+  Bvh result(*this);
+  result.impl_ = std::move(impl);
+  return result;
 }
 
 Statistics Bvh::statistics() const { return impl_->statistics; }

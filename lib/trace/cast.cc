@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "base/simd_dispatch.h"
 #include "frame/frame_check.h"
 
 namespace plumb {
@@ -55,10 +56,15 @@ void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, 
 }  // namespace
 
 void cast(const Bvh& bvh, const Camera& camera, Frame& frame, const CastOptions& options) {
-  cast_frame(bvh, camera, frame, options);
+  if (options.simd == Simd::Auto) {
+    cast_frame(bvh, camera, frame, options);
+  } else {
+    cast_frame(bvh.with_simd(options.simd), camera, frame, options);
+  }
 }
 
 void cast(const BruteForce& brute, const Camera& camera, Frame& frame, const CastOptions& options) {
+  detail::resolve_simd(options.simd);  // throws for one that is not there
   cast_frame(brute, camera, frame, options);
 }
 

@@ -29,7 +29,7 @@ struct BuildOptions {
   /// Called now and then with the share done, rising from 0 to 1, from whichever thread gets there but
   /// never from two at once. Returning false cancels: the constructor throws Cancelled. What it throws
   /// itself ends the build too and comes out of the constructor.
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress = nullptr;
 };
 
 /// What a tree is like.
@@ -81,6 +81,10 @@ class Bvh {
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// Whether any hit of each ray counts, in the same way.
   void any(std::span<const Ray> rays, std::span<bool> hits) const;
+
+  /// The same tree, shared, with its queries on another instruction set: Auto is the best one. Throws
+  /// plumb::Error for one that is not among simd_targets().
+  Bvh with_simd(Simd simd) const;
 
   /// What the tree is like.
   Statistics statistics() const;

@@ -6,6 +6,7 @@
 #include "plumb/bvh.h"
 #include "plumb/camera.h"
 #include "plumb/frame.h"
+#include "plumb/simd.h"
 
 namespace plumb {
 
@@ -13,15 +14,18 @@ namespace plumb {
 struct CastOptions {
   /// Threads; 0 takes all that the affinity mask allows, and more are never used.
   int threads = 0;
+  /// Instruction set of the rays; must be Auto, which is the structure's own, or one of simd_targets().
+  /// Structures in plain scalar code stay so.
+  Simd simd = Simd::Auto;
   /// Called now and then with the share done, rising from 0 to 1, from whichever thread gets there but
   /// never from two at once. Returning false cancels: cast() throws Cancelled. What it throws itself
   /// comes out of cast() too. Either way some pixels may have been overwritten and others not.
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress = nullptr;
 };
 
 /// Casts the ray of every pixel and overwrites the whole frame. Throws plumb::Error, and leaves the
 /// frame as it was, when the frame's size is not the camera's, when it does not hold a depth and an id
-/// for each pixel, and when `threads` is negative; and Cancelled when the options' progress says so.
+/// for each pixel, and for options out of range; and Cancelled when the options' progress says so.
 void cast(const Bvh& bvh, const Camera& camera, Frame& frame, const CastOptions& options = {});
 /// The same, every ray against every triangle.
 void cast(const BruteForce& brute, const Camera& camera, Frame& frame, const CastOptions& options = {});

@@ -24,7 +24,7 @@ struct RasterOptions {
   /// there but never from two at once. Returning false cancels: Cancelled is thrown and nothing of
   /// that draw() remains. So it is when the callback throws, and its exception comes out. With a
   /// callback each draw() first copies what was drawn, 8 bytes a pixel.
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress = nullptr;
 };
 
 /// Draws triangles into tiles over many calls, then resolves them into a frame.
