@@ -9,5 +9,6 @@ namespace plumb::tool {
 // plumb::Error.
 void add_compare_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
+void add_soak_command(CLI::App& app, int& status);
 
 }  // namespace plumb::tool

@@ -1,0 +1,72 @@
+#include "soak/subject.h"
+
+#include <utility>
+
+#include "plumb/brute_force.h"
+#include "plumb/bvh.h"
+#include "plumb/cast.h"
+#include "plumb/raster.h"
+#include "plumb/simd.h"
+
+namespace plumb::soak {
+namespace {
+
+template <typename Inner>
+class Adapted final : public Structure {
+ public:
+  explicit Adapted(Inner inner) : inner_(std::move(inner)) {}
+  Hit closest(const Ray& ray) const override { return inner_.closest(ray); }
+  bool any(const Ray& ray) const override { return inner_.any(ray); }
+  void all(const Ray& ray, std::vector<Hit>& hits) const override { inner_.all(ray, hits); }
+  void closest(std::span<const Ray> rays, std::span<Hit> hits) const override { inner_.closest(rays, hits); }
+  void any(std::span<const Ray> rays, std::span<bool> hits) const override { inner_.any(rays, hits); }
+  void cast(const Camera& camera, Frame& frame) const override {
+    CastOptions options;
+    options.threads = 1;
+    plumb::cast(inner_, camera, frame, options);
+  }
+
+ private:
+  Inner inner_;
+};
+
+Subject tree(int width, Simd simd, bool scalar) {
+  BuildOptions options;
+  options.width = width;
+  options.threads = 1;
+  options.simd = simd;
+  const std::string target(simd_name(simd));
+  return {"bvh" + std::to_string(width) + (scalar ? "" : " " + target),
+          "Bvh(mesh, {.width = " + std::to_string(width) + ", .simd = parse_simd(\"" + target + "\")})",
+          [options](const TriangleMesh& mesh) { return std::make_unique<Adapted<Bvh>>(Bvh(mesh, options)); },
+          nullptr};
+}
+
+Subject rasterizer(Simd simd) {
+  RasterOptions options;
+  options.threads = 1;
+  options.simd = simd;
+  const std::string target(simd_name(simd));
+  return {"raster " + target, "rasterize(mesh, camera, frame, {.simd = parse_simd(\"" + target + "\")})",
+          nullptr, [options](const TriangleMesh& mesh, const Camera& camera, Frame& frame) {
+            rasterize(mesh, camera, frame, options);
+          }};
+}
+
+}  // namespace
+
+std::vector<Subject> all_subjects() {
+  std::vector<Subject> subjects;
+  subjects.push_back(
+      {"brute", "BruteForce(mesh)",
+       [](const TriangleMesh& mesh) { return std::make_unique<Adapted<BruteForce>>(BruteForce(mesh)); },
+       nullptr});
+  subjects.push_back(tree(2, simd_targets().front(), true));
+  for (const int width : {4, 8}) {
+    for (const Simd simd : simd_targets()) subjects.push_back(tree(width, simd, false));
+  }
+  for (const Simd simd : simd_targets()) subjects.push_back(rasterizer(simd));
+  return subjects;
+}
+
+}  // namespace plumb::soak

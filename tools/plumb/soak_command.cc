@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "plumb/error.h"
+#include "plumb/version.h"
+#include "progress_bar.h"
+#include "soak/difference.h"
+#include "soak/paste.h"
+#include "soak/shrink.h"
+#include "soak/source.h"
+#include "soak/subject.h"
+#include "verdict.h"
+
+namespace plumb::tool {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct SoakOptions {
+  double seconds = 60.0;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool json = false;
+};
+
+struct Found {
+  soak::Drawn drawn;
+  soak::Difference difference;
+};
+
+/// Draws and compares on several threads until the time is over or an answer differs.
+class Soak {
+ public:
+  Soak(const SoakOptions& options, std::vector<soak::Subject> subjects)
+      : options_(options),
+        subjects_(std::move(subjects)),
+        start_(Clock::now()),
+        progress_(progress_bar("soak")) {}
+
+  void run() {
+    const int wanted =
+        options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
+    {
+      std::vector<std::jthread> workers;
+      for (int i = 0; i < std::max(1, wanted); ++i) workers.emplace_back([this] { work(); });
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  const soak::Tally& tally() const { return tally_; }
+  std::uint64_t instances() const { return instances_; }
+  const std::optional<Found>& found() const { return found_; }
+  const std::vector<soak::Subject>& subjects() const { return subjects_; }
+
+ private:
+  void work() {
+    try {
+      while (!stop_ && seconds() < options_.seconds) step();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  void step() {
+    soak::Drawn drawn = soak::draw_instance(options_.seed, next_++);
+    soak::Tally tally;
+    std::optional<soak::Difference> difference = soak::find_difference(drawn.instance, subjects_, tally);
+    const std::lock_guard lock(mutex_);
+    tally_ += tally;
+    ++instances_;
+    if (difference.has_value() && !found_.has_value()) {
+      found_ = Found{std::move(drawn), std::move(*difference)};
+      stop_ = true;
+    }
+    if (progress_ && !progress_(std::min(1.0, seconds() / options_.seconds))) stop_ = true;
+  }
+
+  const SoakOptions& options_;
+  std::vector<soak::Subject> subjects_;
+  Clock::time_point start_;
+  std::atomic<std::uint64_t> next_{0};
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;  // of all below
+  std::function<bool(double)> progress_;
+  soak::Tally tally_;
+  std::uint64_t instances_ = 0;
+  std::optional<Found> found_;
+  std::exception_ptr failure_;
+};
+
+nlohmann::json summary(const SoakOptions& options, const Soak& soak) {
+  nlohmann::json subjects = nlohmann::json::array();
+  for (const soak::Subject& subject : soak.subjects()) subjects.push_back(subject.name);
+  const soak::Tally& tally = soak.tally();
+  return {{"plumb", PLUMB_VERSION},
+          {"seed", options.seed},
+          {"seconds", soak.seconds()},
+          {"subjects", subjects},
+          {"instances", soak.instances()},
+          {"rays", tally.rays},
+          {"hits", tally.hits},
+          {"ray_answers", tally.ray_answers},
+          {"frames", tally.frames},
+          {"pixels", tally.pixels},
+          {"pixel_answers", tally.pixel_answers},
+          {"agree", !soak.found().has_value()},
+          {"difference", nullptr}};
+}
+
+ExitStatus run_soak(const SoakOptions& options) {
+  if (!(options.seconds > 0.0)) {
+    throw Error(fmt::format("plumb: --seconds {}: give a time above 0", options.seconds));
+  }
+  if (options.threads < 0) throw Error(fmt::format("plumb: --threads {}: give 0 or more", options.threads));
+  Soak soak(options, soak::all_subjects());
+  fmt::print(stderr, "seed {}, {} s, {} methods and targets against the oracle\n", options.seed,
+             options.seconds, soak.subjects().size());
+  soak.run();
+  nlohmann::json json = summary(options, soak);
+  const soak::Tally& tally = soak.tally();
+  fmt::print(
+      stderr,
+      "{} instances in {:.1f} s: {} rays ({} of them hit), {} answers about them; {} frames of {} pixels, {} "
+      "answers\n",
+      soak.instances(), soak.seconds(), tally.rays, tally.hits, tally.ray_answers, tally.frames, tally.pixels,
+      tally.pixel_answers);
+  if (soak.found().has_value()) {
+    const Found& found = *soak.found();
+    fmt::print(stderr, "{}: {} {}\nshrinking ...\n", found.drawn.name,
+               soak.subjects()[found.difference.subject].name, found.difference.text);
+    const soak::Shrunk shrunk = soak::shrink(found.drawn.instance, found.difference, soak.subjects());
+    const std::string test = soak::test_to_paste(shrunk, soak.subjects());
+    json["difference"] = {{"instance", found.drawn.name},
+                          {"subject", soak.subjects()[found.difference.subject].name},
+                          {"text", found.difference.text},
+                          {"test", test}};
+    if (!options.json) fmt::print("{}", test);
+  } else {
+    fmt::print(stderr, "no answer differs from the oracle's\n");
+  }
+  if (options.json) fmt::print("{}\n", json.dump(2));
+  return soak.found().has_value() ? kDiffer : kAgree;
+}
+
+}  // namespace
+
+void add_soak_command(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("soak", "Search hard scenes, rays and cameras for a wrong answer");
+  const auto options = std::make_shared<SoakOptions>();
+  command->add_option("--seconds", options->seconds, "how long to search")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of what is drawn; another seed draws other instances")
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "0 takes all")->type_name("N")->capture_default_str();
+  command->add_flag("--json", options->json, "print what was compared as JSON on standard output");
+  command->footer(
+      "Every method on every instruction set is asked for closest, any and all hits, one by one and in "
+      "spans, and\n"
+      "for frames, and compared with rational arithmetic. A difference is shrunk to a smallest case, which "
+      "is\n"
+      "printed as a C++ test to paste; then the exit status is 1.");
+  command->callback([options, &status] { status = run_soak(*options); });
+}
+
+}  // namespace plumb::tool
