@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kGroup = "Slivers and specks";
 constexpr int kRays = 8;
 
-// A point beside the middle of an edge of length 1 to 2, by 2^-10 to 2^-22, is the third vertex.
+// A point beside the middle of an edge of length 1 to 3, by 2^-12 to 2^-22, is the third vertex.
 void sliver(Random& random, Instance& instance) {
   constexpr int kSlivers = 8;
   struct Sliver {
@@ -23,14 +23,14 @@ void sliver(Random& random, Instance& instance) {
   for (int i = 0; i < kSlivers; ++i) {
     const int axis = random.between(0, 2);
     glm::vec3 a = fixed3(random), b = fixed3(random);
-    a.x = 0.5f * a.x - 0.5f;
-    b.x = 0.5f * b.x + 0.5f;
+    a.x = fixed(random, -2) - 0.75f;
+    b.x = fixed(random, -2) + 0.75f;
     a = turned(a, axis);
     b = turned(b, axis);
     const glm::vec3 middle = between(random, a, b);
     glm::vec3 offset = random.lattice3(1);
     if (offset == glm::vec3(0.0f)) offset.x = 1.0f;
-    const glm::vec3 tip = middle + std::ldexp(1.0f, -random.between(10, 22)) * offset;
+    const glm::vec3 tip = middle + std::ldexp(1.0f, -random.between(12, 22)) * offset;
     add_turned(random, instance.mesh, a, b, tip);
     slivers.push_back({middle, tip});
   }
