@@ -1,60 +1,52 @@
 #include <doctest/doctest.h>
 
-#include <gmpxx.h>
-
-#include <array>
 #include <cstddef>
-#include <string>
+#include <cstring>
+#include <set>
+#include <string_view>
+#include <vector>
 
 #include "cases/cases.h"
-#include "oracle/exact.h"
-#include "oracle/oracle.h"
-#include "support/oracle_adapter.h"
+#include "cases_util.h"
 
-// That each hard case is what it says.
+// The library of hard cases as a whole. What each case claims to be is in the other files.
 
 using namespace plumb;
+using cases::Instance;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
-
-using Integer3 = std::array<mpz_class, 3>;
-
-Integer3 integers(glm::vec3 v) { return {oracle::scaled(v.x), oracle::scaled(v.y), oracle::scaled(v.z)}; }
-
-mpz_class determinant(const Integer3& d, const Integer3& a, const Integer3& b) {
-  return d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
-         d[2] * (a[0] * b[1] - a[1] * b[0]);
-}
-
-// How many of the triangle's three edge functions are exactly zero.
-int zero_edges(const Ray& ray, const TriangleMesh& mesh, const glm::uvec3& triangle) {
-  std::array<Integer3, 3> corners;
-  const Integer3 origin = integers(ray.origin);
-  for (int i = 0; i < 3; ++i) {
-    corners[static_cast<std::size_t>(i)] = integers(mesh.positions[triangle[i]]);
-    for (std::size_t k = 0; k < 3; ++k) corners[static_cast<std::size_t>(i)][k] -= origin[k];
+// FNV-1a over the bits, so that -0 and NaNs count as they are.
+class Hash {
+ public:
+  template <typename T>
+  void add(const T& value) {
+    unsigned char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (const unsigned char byte : bytes) value_ = (value_ ^ byte) * 0x100000001b3u;
   }
-  const Integer3 direction = integers(ray.direction);
-  int zeros = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    zeros += determinant(direction, corners[i], corners[(i + 1) % 3]) == 0 ? 1 : 0;
-  }
-  return zeros;
-}
+  std::uint64_t value() const { return value_; }
 
-int zero_edges(const Ray& ray, const TriangleMesh& mesh) {
-  int zeros = 0;
-  for (const glm::uvec3& triangle : mesh.triangles) zeros += zero_edges(ray, mesh, triangle);
-  return zeros;
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+std::uint64_t hash(const Instance& instance) {
+  Hash hash;
+  for (const glm::vec3& v : instance.mesh.positions) hash.add(v);
+  for (const glm::uvec3& t : instance.mesh.triangles) hash.add(t);
+  for (const Ray& ray : instance.rays) hash.add(ray);
+  for (const Ray& ray : cases::pixel_rays(instance)) hash.add(ray);
+  return hash.value();
 }
 
 }  // namespace
 
 TEST_CASE("cases: every case has its own name and says how it is built and what is defined") {
+  std::set<std::string_view> names;
   for (const cases::Case& c : cases::all_cases()) {
     CAPTURE(c.name);
+    CHECK(names.insert(c.name).second);
     CHECK(cases::find_case(c.name) == &c);
     CHECK(c.built.ends_with('.'));
     CHECK(c.definition.ends_with('.'));
@@ -63,10 +55,42 @@ TEST_CASE("cases: every case has its own name and says how it is built and what 
   CHECK(cases::find_case("none of them") == nullptr);
 }
 
-TEST_CASE("cases: shared-edge aims every ray exactly at an edge") {
-  const cases::Case& c = *cases::find_case("shared-edge");
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    const cases::Instance instance = cases::make_instance(c, kSeed, i);
-    for (const Ray& ray : instance.rays) CHECK(zero_edges(ray, instance.mesh) >= 1);
+TEST_CASE("cases: an instance is made from the case, the seed and its index alone") {
+  for (const cases::Case& c : cases::all_cases()) {
+    CAPTURE(c.name);
+    const std::uint64_t made = hash(cases::make_instance(c, 1, 5));
+    CHECK(hash(cases::make_instance(c, 1, 5)) == made);
+    if (c.name == "no-triangle") continue;
+    CHECK(hash(cases::make_instance(c, 1, 6)) != made);
+    CHECK(hash(cases::make_instance(c, 2, 5)) != made);
+  }
+}
+
+TEST_CASE("cases: every instance has something to look with, and indices in range") {
+  for (const cases::Case& c : cases::all_cases()) {
+    CAPTURE(c.name);
+    cases::each_instance(c.name, 20, [&](const Instance& instance) {
+      CHECK((!instance.rays.empty() || instance.camera.has_value()));
+      std::size_t beyond = 0;
+      for (const glm::uvec3& t : instance.mesh.triangles) {
+        for (int i = 0; i < 3; ++i) beyond += t[i] < instance.mesh.positions.size() ? 0 : 1;
+      }
+      CHECK(beyond == 0);
+    });
+  }
+}
+
+TEST_CASE("cases: something is seen in all but those that are about seeing nothing") {
+  const std::set<std::string_view> all_missed = {"non-finite-ray", "no-triangle"};
+  for (const cases::Case& c : cases::all_cases()) {
+    CAPTURE(c.name);
+    bool seen = false;
+    cases::each_instance(c.name, 20, [&](const Instance& instance) {
+      if (seen) return;
+      for (const Ray& ray : instance.rays) seen = seen || cases::is_hit(instance, ray);
+      if (seen || !instance.camera) return;
+      for (const Ray& ray : cases::pixel_rays(instance)) seen = seen || cases::is_hit(instance, ray);
+    });
+    CHECK(seen != all_missed.contains(c.name));
   }
 }

@@ -9,7 +9,11 @@ namespace {
 
 std::vector<Case> joined() {
   std::vector<Case> all;
-  for (const std::span<const Case> group : {edge_cases()}) all.insert(all.end(), group.begin(), group.end());
+  for (const std::span<const Case> group :
+       {edge_cases(), plane_cases(), shape_cases(), depth_cases(), coincident_cases(), origin_cases(),
+        far_cases(), range_cases(), tree_cases(), anything_cases()}) {
+    all.insert(all.end(), group.begin(), group.end());
+  }
   return all;
 }
 

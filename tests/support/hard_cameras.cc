@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/error.h"
+#include "support/hard_scenes.h"
 
 namespace plumb::hard {
 namespace {
@@ -156,5 +157,9 @@ constexpr CameraKind kKinds[] = {
 }  // namespace
 
 std::span<const CameraKind> camera_kinds() { return kKinds; }
+
+Camera camera_of_kind(Random& random, const TriangleMesh& mesh, std::string_view kind) {
+  return kind_called(kKinds, kind).make(random, mesh);
+}
 
 }  // namespace plumb::hard

@@ -17,4 +17,7 @@ struct CameraKind {
 
 std::span<const CameraKind> camera_kinds();
 
+/// A camera of one kind at the mesh. Throws std::invalid_argument for a kind that is none.
+Camera camera_of_kind(Random& random, const TriangleMesh& mesh, std::string_view kind);
+
 }  // namespace plumb::hard

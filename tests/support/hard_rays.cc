@@ -340,6 +340,11 @@ Case make_case(const SceneKind& scene, std::uint64_t seed, std::size_t ray_count
   return result;
 }
 
+Ray ray_of_kind(Random& random, const TriangleMesh& mesh, std::string_view kind) {
+  Targets targets(random, mesh);
+  return kind_called(kKinds, kind).make(random, targets);
+}
+
 std::vector<Case> make_cases(std::uint64_t seeds, std::size_t ray_count) {
   std::vector<Case> cases;
   for (const SceneKind& scene : scene_kinds()) {

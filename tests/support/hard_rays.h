@@ -27,6 +27,10 @@ struct Case {
 
 Case make_case(const SceneKind& scene, std::uint64_t seed, std::size_t ray_count);
 
+/// A ray of one kind ("at_vertex", "along_edge", ...) at the mesh, with nothing else done to it. Throws
+/// std::invalid_argument for a kind that is none.
+Ray ray_of_kind(Random& random, const TriangleMesh& mesh, std::string_view kind);
+
 /// `seeds` cases of every kind of scene, in one list.
 std::vector<Case> make_cases(std::uint64_t seeds, std::size_t ray_count);
 

@@ -349,6 +349,10 @@ constexpr SceneKind kKinds[] = {
 
 std::span<const SceneKind> scene_kinds() { return kKinds; }
 
+TriangleMesh scene_of_kind(Random& random, std::string_view kind) {
+  return kind_called(kKinds, kind).make(random);
+}
+
 float nudged(Random& random, float f, int limit) {
   for (int steps = random.between(-limit, limit); steps != 0; steps += steps < 0 ? 1 : -1) {
     const float next = std::nextafter(f, steps < 0 ? -kInf : kInf);
