@@ -40,7 +40,7 @@ bool is_degenerate(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2
 
 mpq_class power_of_two(int exponent) {
   mpz_class power = 1;
-  power <<= std::abs(exponent);
+  power <<= static_cast<mp_bitcnt_t>(std::abs(exponent));
   return exponent < 0 ? mpq_class(1) / mpq_class(power) : mpq_class(power);
 }
 
@@ -184,7 +184,9 @@ TEST_CASE("cases: surfaces coincide, or cross within a few floats") {
 TEST_CASE("cases: cameras are as far away as they say") {
   const std::pair<std::string_view, double> kCases[] = {
       {"camera-1e3", 1e3}, {"camera-1e4", 1e4}, {"camera-1e5", 1e5}, {"camera-1e6", 1e6}};
-  for (const auto& [name, distance] : kCases) {
+  for (const auto& place : kCases) {
+    const std::string_view name = place.first;
+    const double distance = place.second;
     CAPTURE(name);
     CHECK(instance_share(name, [&, far = distance](const Instance& instance) {
             const double sizes = distance_in_sizes(instance);
