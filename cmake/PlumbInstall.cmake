@@ -24,6 +24,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/plumbConfig.cmake ${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake
   DESTINATION ${PLUMB_CMAKE_DIR})
 
+if(PLUMB_BUILD_IO)
+  set(PLUMB_PC_IO_REQUIRES " openmesh")
+endif()
 list(TRANSFORM PLUMB_ARCHIVES PREPEND "-l" OUTPUT_VARIABLE PLUMB_PC_LIBS)
 list(JOIN PLUMB_PC_LIBS " " PLUMB_PC_LIBS)
 # Relative to the file itself, so that the installed tree can be moved; absolute install folders stay.

@@ -8,6 +8,7 @@ namespace plumb::tool {
 // the command line is parsed and leaves the process's exit status in `status`. Bad input is thrown as
 // plumb::Error.
 void add_compare_command(CLI::App& app, int& status);
+void add_info_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
 void add_soak_command(CLI::App& app, int& status);
 

@@ -55,4 +55,14 @@ std::string render_help() {
       scenes_help(), methods_help(), kCameraHelp);
 }
 
+std::string info_help() {
+  return fmt::format(
+      "\n{}\n"
+      "Vertices at equal positions count as one. The surface is closed where every edge belongs to an even\n"
+      "number of triangles, manifold where it is a disk or half a disk about every point, oriented where\n"
+      "neighbours agree which side is the front.\n\n"
+      "Exit status: 0, or 2 for bad usage or input.\n",
+      scenes_help());
+}
+
 }  // namespace plumb::tool

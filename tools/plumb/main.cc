@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
   int status = kAgree;
   add_compare_command(app, status);
   add_render_command(app, status);
+  add_info_command(app, status);
   add_soak_command(app, status);
   try {
     app.parse(argc, argv);

@@ -69,9 +69,13 @@ Scene open_file(const FrameOptions& options, int width, int height) {
 
 }  // namespace
 
-void add_frame_options(CLI::App& command, FrameOptions& options) {
-  command.add_option("SCENE", options.scene, "a mesh file (PLY, OBJ, STL, OFF), or builtin:NAME[:SIZE]")
+void add_scene_option(CLI::App& command, std::string& scene) {
+  command.add_option("SCENE", scene, "a mesh file (PLY, OBJ, STL, OFF), or builtin:NAME[:SIZE]")
       ->capture_default_str();
+}
+
+void add_frame_options(CLI::App& command, FrameOptions& options) {
+  add_scene_option(command, options.scene);
   command.add_option("--size", options.size, "the frame in pixels")->type_name("WxH")->capture_default_str();
   command.add_option("--eye", options.eye, "where the camera is")->type_name("X,Y,Z");
   command.add_option("--target", options.target, "what it looks at")->type_name("X,Y,Z");
@@ -89,6 +93,11 @@ Scene open_scene(const FrameOptions& options) {
   const auto [width, height] = parse_size("--size", options.size);
   return options.scene.starts_with(kBuiltin) ? open_builtin(options, width, height)
                                              : open_file(options, width, height);
+}
+
+TriangleMesh open_mesh(const std::string& scene) {
+  if (!scene.starts_with(kBuiltin)) return load_mesh(scene);
+  return builtin_scene(std::string_view(scene).substr(kBuiltin.size())).mesh;
 }
 
 std::string describe(const Scene& scene) {

@@ -20,6 +20,9 @@ struct FrameOptions {
   int threads = 0;
 };
 
+/// Adds SCENE to a subcommand.
+void add_scene_option(CLI::App& command, std::string& scene);
+
 /// Adds them to a subcommand; they are filled when the command line is parsed.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 
@@ -33,6 +36,9 @@ struct Scene {
 /// Reads or makes the scene. A camera option that is not given is the built-in scene's own; a file's
 /// is that of frame_all, which looks at the middle of the finite triangles. Throws plumb::Error.
 Scene open_scene(const FrameOptions& options);
+
+/// Only the mesh of a SCENE.
+TriangleMesh open_mesh(const std::string& scene);
 
 /// One line about the scene and its camera.
 std::string describe(const Scene& scene);

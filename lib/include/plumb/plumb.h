@@ -31,4 +31,5 @@
 #include "plumb/ray.h"
 #include "plumb/simd.h"
 #include "plumb/surface.h"
+#include "plumb/topology.h"
 #include "plumb/version.h"
