@@ -22,7 +22,7 @@ struct Topology {
   std::size_t unused_vertices = 0;    ///< vertices of the mesh that no triangle uses
   std::size_t repeated_vertices = 0;  ///< used vertices at the position of an earlier one
 
-  std::size_t edges = 0;
+  std::size_t edges = 0;               ///< different pairs of positions that triangles have as a side
   std::size_t boundary_edges = 0;      ///< of one triangle
   std::size_t non_manifold_edges = 0;  ///< of three triangles or more
   std::size_t odd_edges = 0;           ///< of an odd number of triangles, boundary edges among them
@@ -31,10 +31,10 @@ struct Topology {
   /// that run through them in opposite ways.
   std::size_t non_manifold_positions = 0;
 
-  /// Of the surface that is left when it is cut along non-manifold and turned edges, and apart at
-  /// non-manifold positions: triangles joined by edges, and the closed paths of its boundary.
+  /// Parts whose triangles are joined by edges, of the surface cut along non-manifold and turned edges
+  /// and apart at non-manifold positions.
   std::size_t components = 0;
-  std::size_t boundary_loops = 0;
+  std::size_t boundary_loops = 0;  ///< closed paths of the boundary, of the same
   /// Of the same: vertices - edges + triangles. 2 for a sphere, 0 for a torus, one less for each hole.
   std::ptrdiff_t euler_characteristic = 0;
 
