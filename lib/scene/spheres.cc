@@ -70,7 +70,7 @@ BuiltinScene spheres(std::size_t size) {
   // Both the number of spheres and their triangles grow, each about as the square root of the size.
   const double wanted = static_cast<double>(size);
   const double most = std::max(1.0, std::floor(0.5 * std::sqrt(wanted)));
-  const int n = std::max(1, static_cast<int>(std::sqrt(wanted / (8.0 * most)) + 0.5));
+  const int n = std::max(1, static_cast<int>(std::floor(std::sqrt(wanted / (8.0 * most)) + 0.5)));
   const auto count = static_cast<std::uint32_t>(std::max(1.0, std::floor(wanted / (8.0 * n * n) + 0.5)));
   BuiltinScene scene{{}, {2.2f, 1.6f, 4.2f}, {}, {0.0f, 1.0f, 0.0f}, 43.0};
   scene.mesh.positions.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(4 * n * n + 2));

@@ -38,7 +38,7 @@ bool PlaneValues(const Projection& view, MeshView mesh, int x, int y, double scr
     return false;
   }
   const int block = (y - tile_y) / kBlockPx * kTileBlocks + (x - tile_x) / kBlockPx;
-  const size_t pixel = static_cast<size_t>((y - tile_y) % kBlockPx * kBlockPx + (x - tile_x) % kBlockPx);
+  const int pixel = (y - tile_y) % kBlockPx * kBlockPx + (x - tile_x) % kBlockPx;
   HWY_ALIGN float centre[4];
   PlanesAt(placed[0], block, centre);
   const hn::CappedTag<float, 16> d;
@@ -46,7 +46,7 @@ bool PlaneValues(const Projection& view, MeshView mesh, int x, int y, double scr
     HWY_ALIGN float values[16];
     for (size_t lane = 0; lane < 16; lane += hn::Lanes(d))
       hn::Store(PlaneAtPixels(d, placed[0], centre, i, lane), d, values + lane);
-    tile[0][i] = double{values[pixel]};
+    tile[0][i] = double{values[static_cast<size_t>(pixel)]};
     tile[1][i] = double{placed[0].error[i]};
   }
   return true;

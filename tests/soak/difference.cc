@@ -76,7 +76,7 @@ std::optional<Difference> compare_rays(const cases::Instance& instance, std::spa
   tally.rays += instance.rays.size();
   for (std::size_t s = 0; s < subjects.size(); ++s) {
     if (structures[s] == nullptr) continue;
-    if (const auto difference = ask(s, *structures[s], instance.rays, expected)) return difference;
+    if (auto difference = ask(s, *structures[s], instance.rays, expected)) return difference;
     tally.ray_answers += 5 * instance.rays.size();
   }
   return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<Difference> compare_frames(const cases::Instance& instance, std::s
     } else {
       structures[s]->cast(camera, frame);
     }
-    if (const auto difference = look(s, frame, expected)) return difference;
+    if (auto difference = look(s, frame, expected)) return difference;
     tally.pixel_answers += expected.pixels.size();
   }
   return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<Difference> find_difference(const cases::Instance& instance, std::
   for (const Subject& subject : subjects)
     structures.push_back(subject.build == nullptr ? nullptr : subject.build(instance.mesh));
   const oracle::Scene scene(witness::to_oracle(instance.mesh));
-  if (const auto difference = compare_rays(instance, subjects, structures, scene, tally)) return difference;
+  if (auto difference = compare_rays(instance, subjects, structures, scene, tally)) return difference;
   if (!instance.camera.has_value()) return std::nullopt;
   return compare_frames(instance, subjects, structures, scene, tally);
 }
