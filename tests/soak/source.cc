@@ -22,9 +22,9 @@ Drawn mixed(std::uint64_t seed, std::uint64_t index) {
   const hard::SceneKind& scene =
       hard::scene_kinds()[random.below(static_cast<std::uint32_t>(hard::scene_kinds().size()))];
   hard::Case made = hard::make_case(scene, random.bits(), kRays);
-  Drawn drawn{"scene " + std::string(scene.name) + place(seed, index),
-              {std::move(made.mesh), std::move(made.rays), {}}};
-  if (index % 4 == 0) {
+  const std::string kind = "scene " + std::string(scene.name);
+  Drawn drawn{kind, kind + place(seed, index), {std::move(made.mesh), std::move(made.rays), {}}};
+  if (index / 2 % 4 == 0) {
     const auto kinds = hard::camera_kinds();
     const hard::CameraKind& camera = kinds[random.below(static_cast<std::uint32_t>(kinds.size()))];
     drawn.instance.camera = camera.make(random, drawn.instance.mesh);
@@ -37,12 +37,13 @@ Drawn mixed(std::uint64_t seed, std::uint64_t index) {
 Drawn draw_instance(std::uint64_t seed, std::uint64_t index) {
   const std::span<const cases::Case> all = cases::all_cases();
   const std::uint64_t half = index / 2;
-  if (index % 2 == 1) return mixed(seed, half);
+  if (index % 2 == 1) return mixed(seed, index);
   // A costly case takes its turn less often.
   const cases::Case& hard_case = all[half % all.size()];
   const std::uint64_t turn = half / all.size();
-  if (turn % hard_case.cost != 0) return mixed(seed, half);
-  return {"case " + std::string(hard_case.name) + place(seed, turn / hard_case.cost),
+  if (turn % hard_case.cost != 0) return mixed(seed, index);
+  const std::string kind = "case " + std::string(hard_case.name);
+  return {kind, kind + place(seed, turn / hard_case.cost),
           cases::make_instance(hard_case, seed, turn / hard_case.cost)};
 }
 

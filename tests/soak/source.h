@@ -9,6 +9,7 @@ namespace plumb::soak {
 
 /// An instance, and enough to make it again.
 struct Drawn {
+  std::string kind;  ///< the case, or the kind of scene
   std::string name;
   cases::Instance instance;
 };

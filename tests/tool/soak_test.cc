@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -21,6 +22,9 @@ TEST_CASE("soak compares for as long as it is told and says how much") {
   CHECK(json.at("seconds").get<double>() >= 0.5);
   CHECK(json.at("instances").get<int>() > 0);
   CHECK(json.at("rays").get<int>() > 0);
+  std::int64_t rays = 0;
+  for (const auto& kind : json.at("kinds")) rays += kind.at("rays").get<std::int64_t>();
+  CHECK(rays == json.at("rays").get<std::int64_t>());
   CHECK(json.at("subjects").size() >= 5);
   CHECK(run.err.find("no answer differs from the oracle's") != std::string::npos);
 }

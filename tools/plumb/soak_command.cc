@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -37,9 +41,37 @@ struct SoakOptions {
   bool json = false;
 };
 
+/// What was compared of one kind of instances.
+struct KindTally {
+  std::uint64_t instances = 0;
+  soak::Tally tally;
+};
+
 struct Found {
   soak::Drawn drawn;
   soak::Difference difference;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While one lives, an interrupt or a request to end stops the search instead of the process.
+class CatchInterrupts {
+ public:
+  CatchInterrupts() {
+    const auto note = [](int) { interrupted = 1; };
+    old_interrupt_ = std::signal(SIGINT, note);
+    old_terminate_ = std::signal(SIGTERM, note);
+  }
+  ~CatchInterrupts() {
+    std::signal(SIGINT, old_interrupt_);
+    std::signal(SIGTERM, old_terminate_);
+  }
+  CatchInterrupts(const CatchInterrupts&) = delete;
+  CatchInterrupts& operator=(const CatchInterrupts&) = delete;
+
+ private:
+  void (*old_interrupt_)(int);
+  void (*old_terminate_)(int);
 };
 
 /// Draws and compares on several threads until the time is over or an answer differs.
@@ -54,6 +86,7 @@ class Soak {
   void run() {
     const int wanted =
         options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
+    const CatchInterrupts catch_interrupts;
     {
       std::vector<std::jthread> workers;
       for (int i = 0; i < std::max(1, wanted); ++i) workers.emplace_back([this] { work(); });
@@ -64,13 +97,14 @@ class Soak {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   const soak::Tally& tally() const { return tally_; }
   std::uint64_t instances() const { return instances_; }
+  const std::map<std::string, KindTally>& kinds() const { return kinds_; }
   const std::optional<Found>& found() const { return found_; }
   const std::vector<soak::Subject>& subjects() const { return subjects_; }
 
  private:
   void work() {
     try {
-      while (!stop_ && seconds() < options_.seconds) step();
+      while (!stop_ && interrupted == 0 && seconds() < options_.seconds) step();
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
@@ -85,6 +119,9 @@ class Soak {
     const std::lock_guard lock(mutex_);
     tally_ += tally;
     ++instances_;
+    KindTally& kind = kinds_[drawn.kind];
+    kind.tally += tally;
+    ++kind.instances;
     if (difference.has_value() && !found_.has_value()) {
       found_ = Found{std::move(drawn), std::move(*difference)};
       stop_ = true;
@@ -101,27 +138,34 @@ class Soak {
   std::function<bool(double)> progress_;
   soak::Tally tally_;
   std::uint64_t instances_ = 0;
+  std::map<std::string, KindTally> kinds_;
   std::optional<Found> found_;
   std::exception_ptr failure_;
 };
 
+nlohmann::json to_json(const soak::Tally& tally) {
+  return {{"rays", tally.rays},     {"hits", tally.hits},     {"ray_answers", tally.ray_answers},
+          {"frames", tally.frames}, {"pixels", tally.pixels}, {"pixel_answers", tally.pixel_answers}};
+}
+
 nlohmann::json summary(const SoakOptions& options, const Soak& soak) {
   nlohmann::json subjects = nlohmann::json::array();
   for (const soak::Subject& subject : soak.subjects()) subjects.push_back(subject.name);
-  const soak::Tally& tally = soak.tally();
-  return {{"plumb", PLUMB_VERSION},
-          {"seed", options.seed},
-          {"seconds", soak.seconds()},
-          {"subjects", subjects},
-          {"instances", soak.instances()},
-          {"rays", tally.rays},
-          {"hits", tally.hits},
-          {"ray_answers", tally.ray_answers},
-          {"frames", tally.frames},
-          {"pixels", tally.pixels},
-          {"pixel_answers", tally.pixel_answers},
-          {"agree", !soak.found().has_value()},
-          {"difference", nullptr}};
+  nlohmann::json kinds = nlohmann::json::object();
+  for (const auto& [name, kind] : soak.kinds()) {
+    kinds[name] = to_json(kind.tally);
+    kinds[name]["instances"] = kind.instances;
+  }
+  nlohmann::json json = {{"plumb", PLUMB_VERSION},
+                         {"seed", options.seed},
+                         {"seconds", soak.seconds()},
+                         {"subjects", subjects},
+                         {"instances", soak.instances()},
+                         {"kinds", kinds},
+                         {"agree", !soak.found().has_value()},
+                         {"difference", nullptr}};
+  json.update(to_json(soak.tally()));
+  return json;
 }
 
 ExitStatus run_soak(const SoakOptions& options) {
