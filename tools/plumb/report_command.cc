@@ -79,9 +79,10 @@ ExitStatus run_hard(const ReportOptions& options) {
     write_file(*options.out, std::as_bytes(std::span(text)));
     fmt::print(stderr, "wrote {}\n", *options.out);
   }
-  fmt::print(stderr, "{}\n",
-             report.agrees() ? "no answer of plumb's methods differs from the exact one"
-                             : "answers of plumb's methods DIFFER from the exact ones");
+  const Tally total = report.plumb_total();
+  fmt::print(
+      stderr, "{} answers of plumb's methods and instruction sets: {}\n", total.asked,
+      total.different == 0 ? "all exact" : fmt::format("{} DIFFER from the exact ones", total.different));
   if (options.json) print_line(to_json(report));
   return report.agrees() ? kAgree : kDiffer;
 }

@@ -42,7 +42,7 @@ std::vector<Answerer> embree_answerers() {
     answerers.push_back(
         {robust ? "embree-robust" : "embree-fast", "", peers::embree_version(),
          robust
-             ? "the same in robust mode"
+             ? "the same in robust mode, where a hit exactly at tmin counts"
              : "its single-ray call, with flush-to-zero on as its manual asks; not asked about rays on which "
                "it aborts (NaN, components beyond 1.8e18, tmin below 0)",
          [=](const cases::Instance& instance) { return answer(device, robust, instance); }});

@@ -51,6 +51,7 @@ std::string to_json(const HardReport& report) {
                          {"seed", report.options.seed},
                          {"peers", peers},
                          {"cases", cases},
+                         {"plumb_answers", report.plumb_total().asked},
                          {"agree", report.agrees()}};
   return document.dump(2);
 }

@@ -30,8 +30,8 @@ std::string ulps(const Tally& tally) {
   return tally.worst_ulps == 0xffffffffu ? "NaN" : fmt::format("{:.1f} million", 1e-6 * tally.worst_ulps);
 }
 
-// Of what a peer was asked: lost, extra or on another surface, and after a + other triangles at the same
-// depth.
+// Shares of what a peer was asked: lost, extra or on another surface, and after a + other triangles at the
+// same depth.
 std::string shares(const Tally& tally) {
   if (tally.asked == 0) return "";
   const std::string wrong = percentage(tally.wrong_ids - tally.same_depth, tally.asked);
@@ -122,7 +122,10 @@ class Document {
   }
 
   void overview() {
+    const Tally total = report_.plumb_total();
     line("\n## Overview\n");
+    line("{} answers of plumb's methods and instruction sets were compared; {} of them differ.\n",
+         grouped(total.asked), total.different == 0 ? "none" : grouped(total.different));
     line("For plumb the number of answers, of all methods and instruction sets together, that differ in any");
     line(
         "bit. For a peer two shares of what it was asked: lost, extra or on another surface, and after the "

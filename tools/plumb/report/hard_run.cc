@@ -131,14 +131,16 @@ void run_instance(const cases::Case& hard_case, std::uint64_t index, const std::
 
 }  // namespace
 
-bool HardReport::agrees() const {
+Tally HardReport::plumb_total() const {
+  Tally total;
   for (const CaseResult& result : cases) {
     for (std::size_t i = 0; i < answerers.size(); ++i) {
       if (answerers[i].is_peer()) continue;
-      if (result.rays.tallies[i].different + result.pixels.tallies[i].different != 0) return false;
+      total += result.rays.tallies[i];
+      total += result.pixels.tallies[i];
     }
   }
-  return true;
+  return total;
 }
 
 CaseResult run_case(const cases::Case& hard_case, const std::vector<Answerer>& answerers,

@@ -39,8 +39,10 @@ struct HardReport {
   std::vector<Answerer> answerers;
   std::vector<CaseResult> cases;
 
-  /// Whether all answers of plumb's own methods are the exact ones.
-  bool agrees() const;
+  /// All answers of plumb's own methods.
+  Tally plumb_total() const;
+  /// Whether they are the exact ones.
+  bool agrees() const { return plumb_total().different == 0; }
 };
 
 /// Asks every answerer everything about one case, on many threads.
