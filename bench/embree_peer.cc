@@ -6,58 +6,15 @@
 #include <type_traits>
 
 #include "chunks.h"
-#include "embree_calls.h"
-#include "flush_mode.h"
-#include "plumb/error.h"
+#include "peers/embree_calls.h"
+#include "peers/embree_scene.h"
+#include "peers/flush_mode.h"
 
 namespace plumb::bench {
 namespace {
 
-void check_error(RTCDevice device, const char* what) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE) {
-    throw Error(std::string("plumb_bench: Embree failed ") + what + ", error " + std::to_string(error));
-  }
-}
-
-// A mesh in an Embree scene, with a device of as many threads as are allowed.
-class EmbreeScene {
- public:
-  EmbreeScene(const TriangleMesh& mesh, bool robust, int threads)
-      : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
-    check_error(device_, "to make a device");
-    const FlushMode flush;
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    copy(geometry, mesh.positions, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3);
-    copy(geometry, mesh.triangles, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
-    check_error(device_, "to build");
-  }
-  ~EmbreeScene() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
-  EmbreeScene(const EmbreeScene&) = delete;
-  EmbreeScene& operator=(const EmbreeScene&) = delete;
-
-  RTCScene get() const { return scene_; }
-
- private:
-  template <typename T>
-  static void copy(RTCGeometry geometry, const std::vector<T>& from, RTCBufferType type, RTCFormat format) {
-    void* const to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), from.size());
-    std::copy(from.begin(), from.end(), static_cast<T*>(to));
-  }
-
-  RTCDevice device_;
-  RTCScene scene_;
-};
+using peers::EmbreeScene;
+using peers::FlushMode;
 
 // Embree's scenes of one kind.
 struct Source {
@@ -68,7 +25,7 @@ struct Source {
   std::string mode() const { return robust ? "embree-robust" : "embree-fast"; }
   std::shared_ptr<EmbreeScene> scene(const Workload& workload) const {
     return scenes->get(context.name.title() + "/" + mode(), [&] {
-      return std::make_shared<EmbreeScene>(workload.view.mesh, robust, context.threads);
+      return std::make_shared<EmbreeScene>(peers::EmbreeDevice(context.threads), workload.view.mesh, robust);
     });
   }
 };
@@ -83,10 +40,10 @@ void trace_part(RTCScene scene, bool coherent, std::span<const Ray> rays, Answer
   for (std::size_t i = 0; i < rays.size(); i += static_cast<std::size_t>(N)) {
     const std::span<const Ray> packet =
         rays.subspan(i, std::min(static_cast<std::size_t>(N), rays.size() - i));
-    if constexpr (N == 1 && kClosest) closest_one(scene, context, packet[0], answers[i]);
-    if constexpr (N == 1 && !kClosest) any_one(scene, context, packet[0], answers[i]);
-    if constexpr (N > 1 && kClosest) closest_packet<N>(scene, context, packet, answers + i);
-    if constexpr (N > 1 && !kClosest) any_packet<N>(scene, context, packet, answers + i);
+    if constexpr (N == 1 && kClosest) peers::closest_one(scene, context, packet[0], answers[i]);
+    if constexpr (N == 1 && !kClosest) peers::any_one(scene, context, packet[0], answers[i]);
+    if constexpr (N > 1 && kClosest) peers::closest_packet<N>(scene, context, packet, answers + i);
+    if constexpr (N > 1 && !kClosest) peers::any_packet<N>(scene, context, packet, answers + i);
   }
 }
 
@@ -127,7 +84,7 @@ void add_ray_tasks(const Source& source, std::vector<Task>& tasks) {
 Task build_task(const Source& source) {
   const auto run = [=] {
     const std::shared_ptr<Workload> workload = source.context.workload();
-    const EmbreeScene scene(workload->view.mesh, source.robust, source.context.threads);
+    const EmbreeScene scene(peers::EmbreeDevice(source.context.threads), workload->view.mesh, source.robust);
     return workload->view.mesh.triangles.size();
   };
   const auto check = [=] {
@@ -152,6 +109,6 @@ std::vector<Task> embree_tasks(const Context& context) {
   return tasks;
 }
 
-std::string embree_version() { return "Embree " RTC_VERSION_STRING; }
+std::string embree_version() { return peers::embree_version(); }
 
 }  // namespace plumb::bench

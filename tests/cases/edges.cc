@@ -134,7 +134,8 @@ constexpr Case kCases[] = {
      "Edges on one line decide alike, so an exact joint has no crack; one that is a float off has a crack or "
      "an overlap of that width, which is seen as it is.",
      1, t_junction},
-    {kGroup, "non-manifold-fan", "3 to 9 triangles that share one edge and rays aimed exactly at that edge.",
+    {kGroup, "non-manifold-fan",
+     "Between 3 and 9 triangles that share one edge, and rays aimed exactly at that edge.",
      "Each triangle is decided by the same sign of the shared edge, as if the ray passed a little beside it.",
      1, non_manifold_fan},
     {kGroup, "edge-pixels",

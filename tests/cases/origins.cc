@@ -35,7 +35,7 @@ constexpr Case kCases[] = {
      "The edges through the origin have the sign zero: their triangles are missed.", 1, on_vertex},
     {kGroup, "origin-on-edge", "Rays that begin exactly on the line of an edge.",
      "The edge through the origin has the sign zero: its triangles are missed.", 1, on_edge},
-    {kGroup, "origin-near-surface", "Rays that begin 2^-8 to 2^-24 of the scene's size from a triangle.",
+    {kGroup, "origin-near-surface", "Rays that begin by 2^-8 to 2^-24 of the scene's size off a triangle.",
      "The smallest depth above 0 counts; there is no distance below which a surface is passed over.", 1,
      near_surface},
     {kGroup, "eye-on-surface", "Frames whose eye lies on a vertex, an edge or a triangle.",

@@ -73,7 +73,7 @@ constexpr Case kCases[] = {
     {kGroup, "teapot-in-stadium",
      "The built-in scene of 2000 triangles, the teapot a thousandth of the stadium's length, with rays aimed "
      "at points of edges and frames of all of it or of the teapot.",
-     kTreesDoNotMatter, 20, stadium},
+     kTreesDoNotMatter, 10, stadium},
     {kGroup, "no-triangle", "A scene without triangles.", "Nothing is seen: t = +inf, id = 0xffffffff.", 4,
      no_triangle},
     {kGroup, "one-triangle", "A scene of one triangle.", "It is seen where it is.", 4, one_triangle},

@@ -11,5 +11,6 @@ void add_compare_command(CLI::App& app, int& status);
 void add_info_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
 void add_soak_command(CLI::App& app, int& status);
+void add_report_command(CLI::App& app, int& status);
 
 }  // namespace plumb::tool

@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   add_render_command(app, status);
   add_info_command(app, status);
   add_soak_command(app, status);
+  add_report_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

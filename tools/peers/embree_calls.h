@@ -10,9 +10,10 @@
 #include "plumb/ray.h"
 
 // plumb's rays through Embree's calls of each width. Putting rays into Embree's structures and taking
-// the answers out is part of what is timed, as it is part of any program that uses it.
+// the answers out is part of what is timed, as it is part of any program that uses it. Call them with
+// FlushMode, as Embree's manual asks.
 
-namespace plumb::bench {
+namespace plumb::peers {
 
 inline void closest_one(RTCScene scene, RTCIntersectContext& context, const Ray& ray, Hit& hit) {
   RTCRayHit query;
@@ -122,4 +123,4 @@ void any_packet(RTCScene scene, RTCIntersectContext& context, std::span<const Ra
   for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = query.tfar[i] < 0.0f;
 }
 
-}  // namespace plumb::bench
+}  // namespace plumb::peers

@@ -4,7 +4,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace plumb::bench {
+namespace plumb::peers {
 
 /// Flush-to-zero and denormals-are-zero on this thread while it lives, as Embree's manual asks. plumb is
 /// timed in the default mode, and so must not run inside.
@@ -35,4 +35,4 @@ class FlushMode {
 #endif
 };
 
-}  // namespace plumb::bench
+}  // namespace plumb::peers
