@@ -31,8 +31,10 @@ glm::vec3 some_point(hard::Random& random) {
       return random.unit3();
     case 1:
       return random.lattice3(2);
-    case 2:
-      return std::ldexp(1.0f, random.between(-149, 126)) * random.unit3();
+    case 2: {
+      const float size = std::ldexp(1.0f, random.between(-149, 126));
+      return size * random.unit3();
+    }
     default:
       return 1000.0f * random.unit3();
   }

@@ -118,7 +118,8 @@ inline void spoil(TriangleMesh& mesh, std::uint64_t seed) {
                        -std::numeric_limits<float>::infinity()};
   for (std::size_t i = 0; i < mesh.positions.size() / 20 + 1; ++i) {
     auto& position = mesh.positions[random.below(static_cast<std::uint32_t>(mesh.positions.size()))];
-    position[static_cast<int>(random.below(3))] = bad[random.below(3)];
+    const auto axis = static_cast<int>(random.below(3));
+    position[axis] = bad[random.below(3)];
   }
 }
 

@@ -95,8 +95,9 @@ TriangleMesh cloud(hard::Random& random, int count, float size) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
     const glm::vec3 centre = random.unit3();
-    add_triangle(mesh, centre + size * random.unit3(), centre + size * random.unit3(),
-                 centre + size * random.unit3());
+    const auto corner = [&] { return centre + size * random.unit3(); };
+    const glm::vec3 v0 = corner(), v1 = corner(), v2 = corner();
+    add_triangle(mesh, v0, v1, v2);
   }
   return mesh;
 }

@@ -174,7 +174,8 @@ Input random_triangle(Random& random, const Target& target) {
   for (std::size_t v = 0; v < 3; ++v) {
     const int x = target.x + random.between(-spread, spread), y = target.y + random.between(-spread, spread);
     const Ray ray = target.camera.ray(x, y);
-    const float depth = std::ldexp(1.5f + 0.5f * random.unit(), random.between(-4, 10));
+    const float fraction = 1.5f + 0.5f * random.unit();
+    const float depth = std::ldexp(fraction, random.between(-4, 10));
     for (int axis = 0; axis < 3; ++axis)
       input.value[6 + 3 * v + static_cast<std::size_t>(axis)] =
           ray.origin[axis] + depth * ray.direction[axis];

@@ -90,7 +90,8 @@ void thin_diagonal(Random& random, Instance& instance) {
     const int step_x = random.between(-2, 2), step_y = random.between(1, 2);
     const glm::vec3 a = end(x - 8 * step_x, y - 8 * step_y);
     const glm::vec3 b = end(x + 8 * step_x, y + 8 * step_y);
-    const glm::vec3 wide = std::ldexp(1.0f, -random.between(11, 20)) * random.lattice3(2);
+    const float width = std::ldexp(1.0f, -random.between(11, 20));
+    const glm::vec3 wide = width * random.lattice3(2);
     // The diagonal, or one long edge, or the middle of one of both triangles on the line of pixels.
     const glm::vec3 a0 = random.one_in(2) ? a : a - wide, b0 = random.one_in(2) ? b : b - wide;
     add_turned(random, instance.mesh, a0, b0, b0 + 2.0f * wide);

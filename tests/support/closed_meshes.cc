@@ -76,7 +76,8 @@ TriangleMesh turned(int steps, int segments, Height y, Radius r) {
   };
   for (int k = 0; k < steps; ++k) {
     for (int s = 0; s < segments; ++s) {
-      lattice.quad(point(k, s), point(k + 1, s), point(k + 1, s + 1), point(k, s + 1));
+      const std::uint32_t a = point(k, s), b = point(k + 1, s), c = point(k + 1, s + 1), d = point(k, s + 1);
+      lattice.quad(a, b, c, d);
     }
   }
   return lattice.take();
@@ -91,8 +92,10 @@ TriangleMesh torus(int around, int along) {
     return lattice.vertex(radius * std::cos(u), 1200.0 * std::sin(v), -radius * std::sin(u));
   };
   for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < along; ++j)
-      lattice.quad(point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
+    for (int j = 0; j < along; ++j) {
+      const std::uint32_t a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1), d = point(i, j + 1);
+      lattice.quad(a, b, c, d);
+    }
   }
   return lattice.take();
 }

@@ -56,11 +56,14 @@ Camera looking(Random& random, glm::vec3 eye, glm::vec3 target, double fov) {
 
 Camera outside(Random& random, const TriangleMesh& mesh) {
   const glm::vec3 target = random.pick(corners(mesh));
-  return looking(random, target + 2.5f * scale(mesh) * random.unit3(), target, 30.0 + random.below(40));
+  const glm::vec3 eye = target + 2.5f * scale(mesh) * random.unit3();
+  return looking(random, eye, target, 30.0 + random.below(40));
 }
 
 Camera inside(Random& random, const TriangleMesh& mesh) {
-  return looking(random, scale(mesh) * random.unit3(), random.pick(corners(mesh)), 40.0 + random.below(130));
+  const glm::vec3 eye = scale(mesh) * random.unit3();
+  const glm::vec3 target = random.pick(corners(mesh));
+  return looking(random, eye, target, 40.0 + random.below(130));
 }
 
 // The eye on a vertex, an edge or a surface.
@@ -113,7 +116,8 @@ Camera extreme(Random& random, const TriangleMesh& mesh) {
 
 // Frames that no look_at makes: a pixel without direction, steps that are zero, parallel or not finite.
 Camera degenerate(Random& random, const TriangleMesh& mesh) {
-  Camera camera = looking(random, scale(mesh) * random.unit3(), random.pick(corners(mesh)), 60.0);
+  const glm::vec3 eye = scale(mesh) * random.unit3();
+  Camera camera = looking(random, eye, random.pick(corners(mesh)), 60.0);
   switch (random.below(7)) {
     case 0:
       camera = raster(random, camera.eye, 0.125, 0.0);
@@ -124,9 +128,11 @@ Camera degenerate(Random& random, const TriangleMesh& mesh) {
     case 2:
       camera.dv = camera.du;
       break;
-    case 3:
-      camera.dv[random.between(0, 2)] = random.one_in(2) ? kInf : std::numeric_limits<double>::quiet_NaN();
+    case 3: {
+      const int axis = random.between(0, 2);
+      camera.dv[axis] = random.one_in(2) ? kInf : std::numeric_limits<double>::quiet_NaN();
       break;
+    }
     case 4:
       camera.corner = camera.du = camera.dv = glm::dvec3(0.0);
       break;
@@ -144,7 +150,9 @@ Camera degenerate(Random& random, const TriangleMesh& mesh) {
 Camera skewed(Random& random, const TriangleMesh& mesh) {
   const auto [width, height] = size(random);
   const auto axis = [&](float length) { return glm::dvec3(length * random.unit3()); };
-  return Camera(scale(mesh) * random.unit3(), axis(1.0f), axis(0.1f), axis(0.1f), width, height);
+  const glm::vec3 eye = scale(mesh) * random.unit3();
+  const glm::dvec3 corner = axis(1.0f), du = axis(0.1f), dv = axis(0.1f);
+  return Camera(eye, corner, du, dv, width, height);
 }
 
 constexpr CameraKind kKinds[] = {

@@ -56,8 +56,8 @@ class Targets {
 
   /// Any point of the triangle's plane.
   glm::vec3 in_plane() {
-    return (v0() + static_cast<float>(random_.between(-2, 2)) * e1()) +
-           0.5f * static_cast<float>(random_.between(-3, 3)) * e2();
+    const auto i = static_cast<float>(random_.between(-2, 2)), j = static_cast<float>(random_.between(-3, 3));
+    return (v0() + i * e1()) + 0.5f * j * e2();
   }
 
   /// Where a ray may begin: anywhere about the scene, on a lattice of the scene's own scale, or at a
@@ -69,7 +69,8 @@ class Targets {
       case 1:
         return scale(-1) * random_.lattice3(6);
       default: {
-        const glm::vec3 mirror = random_.pick(triangles_)[random_.below(3)];
+        const Corners& corners = random_.pick(triangles_);
+        const glm::vec3 mirror = corners[random_.below(3)];
         return mirror - difference(v0(), mirror);
       }
     }
@@ -118,21 +119,32 @@ Ray along(glm::vec3 origin, glm::vec3 direction) {
 // ---- The kinds of rays.
 
 Ray at_vertex(Random&, Targets& t) { return through(t.origin(), t.v0()); }
-Ray at_edge(Random&, Targets& t) { return through(t.origin(), t.on_edge()); }
-Ray at_inside(Random&, Targets& t) { return through(t.origin(), t.inside()); }
+
+Ray at_edge(Random&, Targets& t) {
+  const glm::vec3 origin = t.origin();
+  return through(origin, t.on_edge());
+}
+
+Ray at_inside(Random&, Targets& t) {
+  const glm::vec3 origin = t.origin();
+  return through(origin, t.inside());
+}
 
 Ray along_edge(Random& random, Targets& t) {
   return along(t.v0() - 0.5f * static_cast<float>(random.between(-3, 4)) * t.e1(), t.e1());
 }
 
-Ray in_plane(Random&, Targets& t) { return through(t.in_plane(), t.in_plane()); }
+Ray in_plane(Random&, Targets& t) {
+  const glm::vec3 origin = t.in_plane();
+  return through(origin, t.in_plane());
+}
 
 // Parallel to an axis or a coordinate plane, with zeros of both signs.
 Ray axis_parallel(Random& random, Targets& t) {
   const int axis = random.between(0, 2);
   glm::vec3 origin = random.one_in(3) ? t.v0() : random.one_in(2) ? t.on_edge() : t.inside();
-  glm::vec3 direction(random.one_in(2) ? 0.0f : -0.0f, random.one_in(2) ? 0.0f : -0.0f,
-                      random.one_in(2) ? 0.0f : -0.0f);
+  glm::vec3 direction;
+  for (int i = 0; i < 3; ++i) direction[i] = random.one_in(2) ? 0.0f : -0.0f;
   direction[axis] = random.one_in(2) ? 1.0f : -1.0f;
   origin[axis] -= direction[axis] * t.scale(1) * 0.25f * static_cast<float>(random.between(0, 8));
   if (random.one_in(4)) direction[(axis + 1) % 3] = random.unit();
@@ -162,7 +174,8 @@ Ray from_surface(Random& random, Targets& t) {
 // From just above the surface: det(a, b, c) is small against its terms.
 Ray from_near_surface(Random& random, Targets& t) {
   const glm::vec3 point = t.inside();
-  const glm::vec3 origin = point + t.scale(-random.between(8, 24)) * random.unit3();
+  const float height = t.scale(-random.between(8, 24));
+  const glm::vec3 origin = point + height * random.unit3();
   return random.one_in(2) ? through(origin, t.inside()) : along(origin, random.unit3());
 }
 
@@ -171,8 +184,10 @@ Ray from_near_surface(Random& random, Targets& t) {
 Ray from_zero(Random& random, Targets& t) {
   const auto weight = [&](int greatest) { return static_cast<float>(random.between(-1, greatest)); };
   const glm::vec3 v0 = t.v0(), v1 = v0 + t.e1(), v2 = v0 + t.e2();
-  glm::vec3 direction = weight(3) * v0 + weight(3) * v1 + weight(1) * v2;
-  direction[random.between(0, 2)] += static_cast<float>(random.between(-1, 1));
+  const float w0 = weight(3), w1 = weight(3), w2 = weight(1);
+  glm::vec3 direction = w0 * v0 + w1 * v1 + w2 * v2;
+  const int axis = random.between(0, 2);
+  direction[axis] += static_cast<float>(random.between(-1, 1));
   return along(glm::vec3(0.0f), direction);
 }
 
@@ -221,7 +236,10 @@ Ray from_afar(Random& random, Targets& t) {
   return along(point - t.scale(random.between(2, 30)) * direction, direction);
 }
 
-Ray anywhere(Random& random, Targets& t) { return along(t.origin(), random.unit3()); }
+Ray anywhere(Random& random, Targets& t) {
+  const glm::vec3 origin = t.origin();
+  return along(origin, random.unit3());
+}
 
 // A ray with something in it that makes it none.
 Ray not_a_ray(Random& random, Targets& t) {
@@ -294,10 +312,11 @@ void limit(Random& random, const Targets& targets, Ray& ray) {
     case 4:
       ray.tmax = 2.0f * near_t();
       break;
-    default:
-      (random.one_in(2) ? ray.tmin : ray.tmax) =
-          random.pick(std::vector<float>{0.0f, -0.0f, kInf, -kInf, 0x1p-149f});
+    default: {
+      float& end = random.one_in(2) ? ray.tmin : ray.tmax;
+      end = random.pick(std::vector<float>{0.0f, -0.0f, kInf, -kInf, 0x1p-149f});
       break;
+    }
   }
 }
 

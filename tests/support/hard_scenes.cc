@@ -191,10 +191,13 @@ TriangleMesh non_finite(Random& random) {
   for (int i = 0; i < 16; ++i) mesh.positions.push_back(random.unit3());
   for (int i = 0; i < 3; ++i) {
     const float bad = random.pick(std::vector<float>{std::numeric_limits<float>::quiet_NaN(), kInf, -kInf});
-    mesh.positions[random.below(16)][random.between(0, 2)] = bad;
+    glm::vec3& position = mesh.positions[random.below(16)];
+    position[random.between(0, 2)] = bad;
   }
-  for (int i = 0; i < 24; ++i)
-    mesh.triangles.emplace_back(random.below(16), random.below(16), random.below(16));
+  for (int i = 0; i < 24; ++i) {
+    const std::uint32_t v0 = random.below(16), v1 = random.below(16), v2 = random.below(16);
+    mesh.triangles.emplace_back(v0, v1, v2);
+  }
   return mesh;
 }
 
@@ -231,7 +234,8 @@ TriangleMesh flat(Random& random) {
   std::vector<Corners> triangles;
   for (int i = 0; i < 20; ++i) {
     Corners c = {random.unit3(), random.unit3(), random.unit3()};
-    const float level = std::ldexp(random.one_in(2) ? 1.0f : -1.0f, random.between(-1, 1));
+    const float side = random.one_in(2) ? 1.0f : -1.0f;
+    const float level = std::ldexp(side, random.between(-1, 1));
     for (glm::vec3& v : c) v[axis] = level;
     triangles.push_back(c);
   }
@@ -271,7 +275,10 @@ TriangleMesh concentric(Random& random) {
 TriangleMesh huge(Random& random) {
   return mesh_of(triangles_of(20, [&] {
     glm::vec3 v = 0x1.fffffcp127f * random.unit3();
-    if (random.one_in(4)) v[random.between(0, 2)] = random.one_in(2) ? kMax : -kMax;
+    if (random.one_in(4)) {
+      const int axis = random.between(0, 2);
+      v[axis] = random.one_in(2) ? kMax : -kMax;
+    }
     return v;
   }));
 }
@@ -296,7 +303,8 @@ TriangleMesh mixed_scales(Random& random) {
 
 // A scene of size 1 far from the origin, where floats are coarse.
 TriangleMesh far_away(Random& random) {
-  const glm::vec3 centre = std::ldexp(1.0f, random.between(4, 23)) * random.unit3();
+  const float distance = std::ldexp(1.0f, random.between(4, 23));
+  const glm::vec3 centre = distance * random.unit3();
   return mesh_of(triangles_of(24, [&] { return centre + random.unit3(); }));
 }
 
@@ -313,9 +321,11 @@ TriangleMesh many(Random& random) {
   }
   for (int i = 0; i < 300; ++i) {
     // Three of the eight corners of one cell.
-    const std::uint32_t cell = random.below(4) + 5 * random.below(4) + 25 * random.below(4);
-    const auto corner = [&] { return cell + random.below(2) + 5 * random.below(2) + 25 * random.below(2); };
-    const std::uint32_t v0 = corner(), v1 = corner(), v2 = corner();
+    const auto place = [&](std::uint32_t count) {
+      const std::uint32_t x = random.below(count), y = random.below(count), z = random.below(count);
+      return x + 5 * y + 25 * z;
+    };
+    const std::uint32_t cell = place(4), v0 = cell + place(2), v1 = cell + place(2), v2 = cell + place(2);
     mesh.triangles.emplace_back(v0, v1, v2);
   }
   return mesh;
