@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "base/fp_mode.h"
 #include "oracle/oracle.h"
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
 #include "plumb/simd.h"
 #include "support/effort.h"
+#include "support/fp_modes.h"
 #include "support/hard_rays.h"
 #include "support/oracle_adapter.h"
 #include "support/print.h"
@@ -142,20 +142,18 @@ TEST_SUITE("agree: queries") {
     }
   }
 
-#if defined(__SSE2__)
   TEST_CASE("the caller's flush modes and rounding direction change no answer") {
-    const detail::FpMode saved = detail::fp_mode();
-    for (const unsigned mode : {0x8040u, 0x2000u, 0xe040u}) {  // FTZ and DAZ; downward; both and to zero
-      CAPTURE(mode);
+    for (const hard::NamedFpMode& mode : hard::kFpModes) {
+      CAPTURE(mode.name);
       for (const Answered& a : answered_cases()) {
         const std::size_t count = a.c.rays.size();
         std::vector<Hit> closest(count);
         std::vector<std::vector<Hit>> all(count);
-        detail::set_fp_mode((saved & ~detail::kFpModeBits) | mode);
-        const Bvh bvh(a.c.mesh);
-        bvh.closest(a.c.rays, closest);
-        for (std::size_t i = 0; i < count; ++i) bvh.all(a.c.rays[i], all[i]);
-        detail::set_fp_mode(saved);
+        hard::under_mode(mode.bits, [&] {
+          const Bvh bvh(a.c.mesh);
+          bvh.closest(a.c.rays, closest);
+          for (std::size_t i = 0; i < count; ++i) bvh.all(a.c.rays[i], all[i]);
+        });
         for (std::size_t i = 0; i < count; ++i) {
           INFO(a.c.describe(i));
           CHECK(closest[i] == a.closest(i));
@@ -164,5 +162,4 @@ TEST_SUITE("agree: queries") {
       }
     }
   }
-#endif
 }

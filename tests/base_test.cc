@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "plumb/error.h"
 #include "plumb/simd.h"
+#include "support/fp_modes.h"
 
 using namespace plumb;
 
@@ -40,14 +41,14 @@ TEST_SUITE("parallel") {
   }
 
   TEST_CASE("workers run under the default floating-point mode") {
-#if defined(__SSE2__)
-    const detail::FpMode saved = detail::fp_mode();
-    detail::set_fp_mode(saved | 0x8040u);
-    std::atomic<int> wrong{0};
-    detail::parallel_for(64, 2, [&](std::size_t) { wrong += detail::fp_mode_is_default() ? 0 : 1; });
-    detail::set_fp_mode(saved);
-    CHECK(wrong == 0);
-#endif
+    for (const hard::NamedFpMode& mode : hard::kFpModes) {
+      CAPTURE(mode.name);
+      std::atomic<int> wrong{0};
+      hard::under_mode(mode.bits, [&] {
+        detail::parallel_for(64, 2, [&](std::size_t) { wrong += detail::fp_mode_is_default() ? 0 : 1; });
+      });
+      CHECK(wrong == 0);
+    }
   }
 
   TEST_CASE("progress ends at the callback's false") {

@@ -4,11 +4,11 @@
 #include <sstream>
 #include <vector>
 
-#include "base/fp_mode.h"
 #include "io_util.h"
 #include "mesh_files.h"
 #include "plumb/io.h"
 #include "ply_util.h"
+#include "support/fp_modes.h"
 
 using namespace plumb;
 using namespace plumb::test;
@@ -123,7 +123,6 @@ TEST_SUITE("load_mesh") {
   }
 
   TEST_CASE("the caller's floating-point mode changes nothing and is kept") {
-#if defined(__SSE2__)
     const TempDir dir;
     const std::vector<std::array<double, 3>> vertices = {{1e-40, 0.1, 1 + 0x1p-24},
                                                          {-1e-45, 16777217, 1e-310}};
@@ -138,20 +137,14 @@ TEST_SUITE("load_mesh") {
                               "solid\nfacet normal 0 0 1e-40 outer loop\nvertex 1e-40 0.1 "
                               "1.000000059604644775390625\nvertex -1e-45 16777217 1e-310\nvertex 0 0 0\n"
                               "endloop endfacet endsolid"));
-    const detail::FpMode saved = detail::fp_mode();
-    for (const detail::FpMode mode :
-         {0x8040u, 0x2000u, 0x4000u, 0x6000u}) {  // FTZ and DAZ; down; up; to zero
+    for (const hard::NamedFpMode& mode : hard::kFpModes) {
+      CAPTURE(mode.name);
       for (const fs::path& path : paths) {
-        detail::set_fp_mode(saved | mode);
-        const TriangleMesh mesh = load_mesh(path);
-        const detail::FpMode after = detail::fp_mode();
-        detail::set_fp_mode(saved);
-        CHECK((after & detail::kFpModeBits) == mode);
+        const TriangleMesh mesh = hard::under_mode(mode.bits, [&] { return load_mesh(path); });
         CHECK(mesh.positions.at(0) == glm::vec3(1e-40f, 0.1f, 1.0f));
         CHECK(mesh.positions.at(1) == glm::vec3(-1e-45f, 16777216.0f, 0.0f));
       }
     }
-#endif
   }
 
   TEST_CASE("the shared scenes load with their counts") {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/fp_mode.h"
 #include "plumb/error.h"
 #include "plumb/raster.h"
 #include "raster_util.h"
+#include "support/fp_modes.h"
 #include "support/random.h"
 
 // How frames are put together: many draws, merging, cancelling, errors, the caller's state.
@@ -272,7 +272,6 @@ TEST_SUITE("raster: callers") {
   }
 
   TEST_CASE("the caller's floating-point mode changes nothing and is given back") {
-#if defined(__SSE2__)
     const TriangleMesh mesh = scene(16, 80);
     TriangleMesh small = mesh;
     for (glm::vec3& p : small.positions) p *= 0x1p-130f;
@@ -284,23 +283,17 @@ TEST_SUITE("raster: callers") {
     for (const auto& [scene_mesh, camera] : views) {
       const Frame expected = brute_force_frame(*scene_mesh, camera);
       CHECK(std::count(expected.id.begin(), expected.id.end(), kNone) < 1200);
-      // FTZ, DAZ, both, and the three other roundings.
-      for (const unsigned mode : {0x8000u, 0x0040u, 0x8040u, 0x2000u, 0x4000u, 0x6000u}) {
+      for (const hard::NamedFpMode& mode : hard::kFpModes) {
         for (const int threads : {1, 2}) {
-          CAPTURE(mode);
+          CAPTURE(mode.name);
           CAPTURE(threads);
           RasterOptions options;
           options.threads = threads;
-          const detail::FpMode saved = detail::fp_mode();
-          detail::set_fp_mode((saved & ~detail::kFpModeBits) | mode);
-          const Frame frame = raster_frame(*scene_mesh, camera, options);
-          const detail::FpMode after = detail::fp_mode();
-          detail::set_fp_mode(saved);
-          CHECK((after & detail::kFpModeBits) == mode);
+          const Frame frame =
+              hard::under_mode(mode.bits, [&] { return raster_frame(*scene_mesh, camera, options); });
           check_frame(frame, expected);
         }
       }
     }
-#endif
   }
 }

@@ -1,9 +1,7 @@
 #include "support/hard_views.h"
 
-#include <cstddef>
 #include <cstdio>
 
-#include "oracle/oracle.h"
 #include "support/hard_cameras.h"
 #include "support/hard_scenes.h"
 #include "support/oracle_adapter.h"
@@ -11,24 +9,13 @@
 namespace plumb::hard {
 namespace {
 
-Frame oracle_frame(const TriangleMesh& mesh, const Camera& camera) {
-  const oracle::Frame seen =
-      oracle::render(oracle::Scene(witness::to_oracle(mesh)), witness::to_oracle(camera));
-  Frame frame(camera.width, camera.height);
-  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
-    frame.depth[i] = seen.pixels[i].t;
-    frame.id[i] = seen.pixels[i].id;
-  }
-  return frame;
-}
-
 View make_view(const SceneKind& scene, const CameraKind& kind, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh = scene.make(random);
   const Camera camera = kind.make(random, mesh);
   const std::string name =
       std::string(scene.name) + " from " + std::string(kind.name) + ", seed " + std::to_string(seed);
-  Frame expected = oracle_frame(mesh, camera);
+  Frame expected = witness::oracle_frame(mesh, camera);
   return {name, std::move(mesh), camera, std::move(expected)};
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "oracle/oracle.h"
 #include "plumb/camera.h"
+#include "plumb/frame.h"
 #include "plumb/mesh.h"
 #include "plumb/ray.h"
 
@@ -41,6 +43,17 @@ inline std::vector<Hit> to_plumb(const std::vector<oracle::Hit>& hits) {
   std::vector<Hit> result;
   for (const oracle::Hit& hit : hits) result.push_back(to_plumb(hit));
   return result;
+}
+
+/// The whole frame as the oracle sees it.
+inline Frame oracle_frame(MeshView mesh, const Camera& camera) {
+  const oracle::Frame seen = oracle::render(oracle::Scene(to_oracle(mesh)), to_oracle(camera));
+  Frame frame(camera.width, camera.height);
+  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+    frame.depth[i] = seen.pixels[i].t;
+    frame.id[i] = seen.pixels[i].id;
+  }
+  return frame;
 }
 
 }  // namespace plumb::witness
