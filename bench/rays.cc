@@ -49,16 +49,22 @@ void make_room(RaySet<Answer>& set) {
   set.answers = std::make_unique<Answer[]>(set.rays.size());
 }
 
-std::vector<Ray> camera_rays(const Camera& camera) {
-  std::vector<Ray> rays;
-  rays.reserve(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+// Calls visit(x, y) for every pixel, block by block.
+template <typename Visit>
+void in_packets(const Camera& camera, const Visit& visit) {
   for (int y0 = 0; y0 < camera.height; y0 += kPacket) {
     for (int x0 = 0; x0 < camera.width; x0 += kPacket) {
       for (int y = y0; y < std::min(y0 + kPacket, camera.height); ++y) {
-        for (int x = x0; x < std::min(x0 + kPacket, camera.width); ++x) rays.push_back(camera.ray(x, y));
+        for (int x = x0; x < std::min(x0 + kPacket, camera.width); ++x) visit(x, y);
       }
     }
   }
+}
+
+std::vector<Ray> camera_rays(const Camera& camera) {
+  std::vector<Ray> rays;
+  rays.reserve(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  in_packets(camera, [&](int x, int y) { rays.push_back(camera.ray(x, y)); });
   return rays;
 }
 
@@ -156,6 +162,20 @@ std::unique_ptr<Workload> make_workload(View view) {
   reference.any(workload->shadow.rays, workload->shadow.expected_span());
   reference.closest(workload->diffuse.rays, workload->diffuse.expected_span());
   return workload;
+}
+
+Frame frame_of_camera_rays(const Workload& workload) {
+  const Camera& camera = workload.view.camera;
+  Frame frame(camera.width, camera.height);
+  std::size_t i = 0;
+  in_packets(camera, [&](int x, int y) {
+    const auto pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
+    frame.depth[pixel] = workload.camera.answers[i].t;
+    frame.id[pixel] = workload.camera.answers[i].id;
+    ++i;
+  });
+  return frame;
 }
 
 }  // namespace plumb::bench

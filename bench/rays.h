@@ -46,4 +46,7 @@ struct Workload {
 
 std::unique_ptr<Workload> make_workload(View view);
 
+/// The answers to the camera rays as a frame.
+Frame frame_of_camera_rays(const Workload& workload);
+
 }  // namespace plumb::bench

@@ -24,9 +24,11 @@ Row& row_of(std::vector<Row>& rows, const Task& task) {
 
 Cell& cell_of(Row& row, Work work) { return row.cells[static_cast<std::size_t>(work)]; }
 
-void check(const Task& task, std::vector<Row>& rows) {
+void check(const Task& task, const std::function<void(const Task&)>& after_check, std::vector<Row>& rows) {
   const std::size_t wrong = task.check();
-  if (task.exact && wrong != 0) {
+  if (after_check) {
+    after_check(task);
+  } else if (task.exact && wrong != 0) {
     throw Error("plumb_bench: " + task.method + " " + task.target + ", " + work_name(task.work) + ": " +
                 std::to_string(wrong) + " answers differ from the binary BVH's");
   }
@@ -95,11 +97,12 @@ std::string text_of(const Cell& cell) {
 
 }  // namespace
 
-std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads) {
+std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads,
+                         const std::function<void(const Task&)>& after_check) {
   std::vector<Row> rows;
   std::size_t pixels = 0;
   for (const Task& task : tasks) {
-    check(task, rows);
+    check(task, after_check, rows);
     if (task.work == Work::Frame) pixels = task.run();
   }
   for (const Work work : kWorks) time_work(tasks, work, rounds, threads, rows);

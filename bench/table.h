@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -25,8 +26,10 @@ struct Row {
 };
 
 /// Checks all tasks, then times them, those of one kind of work in turns. Throws plumb::Error when an exact
-/// method's answers are not the reference's: then nothing is timed.
-std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads);
+/// method's answers are not the reference's: then nothing is timed. With `after_check` that is for the caller to
+/// judge: it is called after each check, when the task's answers are still in the workload.
+std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads,
+                         const std::function<void(const Task&)>& after_check = nullptr);
 
 /// The geometric mean of each cell over tables of the same rows.
 std::vector<Row> mean(const std::vector<std::vector<Row>>& tables);

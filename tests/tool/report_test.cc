@@ -123,7 +123,6 @@ TEST_CASE("bad usage of report ends in status 2 and names what is wrong") {
     std::string arguments, named;
   };
   const std::vector<Usage> usages = {
-      {"report", "--hard"},
       {"report --hard --instances 0", "--instances"},
       {"report --hard --instances many", "many"},
       {"report --hard --threads -1", "--threads"},

@@ -6,16 +6,23 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <thread>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "bench/embree_peer.h"
+#include "bench/machine.h"
 #include "commands.h"
 #include "output_file.h"
 #include "plumb/error.h"
+#include "plumb/simd.h"
 #include "progress_bar.h"
 #include "report/hard_document.h"
 #include "report/hard_run.h"
+#include "report/plot.h"
+#include "report/speed_run.h"
 #include "text.h"
 #include "verdict.h"
 
@@ -26,6 +33,9 @@ struct ReportOptions {
   bool hard = false;
   HardOptions run;
   std::optional<std::string> out;
+  SpeedOptions speed;
+  std::string size = "640x360", simd = "auto";
+  std::optional<std::string> html;
   bool json = false;
 };
 
@@ -47,6 +57,11 @@ std::vector<const cases::Case*> parse_cases(const std::string& list) {
 
 std::string report_help() {
   std::string text =
+      "Times every arithmetic, method and instruction set, and the peers of this build, in turns on the same "
+      "rays,\n"
+      "and shows beside each how many triangles per million are wrong and how far off the depths are, "
+      "against the\n"
+      "exact answers: on standard output, as JSON, or as a page (which needs gnuplot).\n\n"
       "--hard draws scenes of each hard case, asks every method on every instruction set and the peers of "
       "this\n"
       "build, and compares each answer with rational arithmetic.\n\nHard cases:\n";
@@ -87,11 +102,50 @@ ExitStatus run_hard(const ReportOptions& options) {
   return report.agrees() ? kAgree : kDiffer;
 }
 
-ExitStatus run_report(const ReportOptions& options) {
-  if (!options.hard) throw Error("plumb: report: say which report; there is --hard");
-  if (options.run.threads < 0) {
-    throw Error(fmt::format("plumb: --threads {}: give 0 or more", options.run.threads));
+const std::vector<std::string>& default_scenes() {
+  static const std::vector<std::string> scenes = {"builtin:teapot-in-stadium", "builtin:spheres",
+                                                  "builtin:grid", "builtin:ties"};
+  return scenes;
+}
+
+SpeedOptions speed_options(const ReportOptions& options) {
+  SpeedOptions speed = options.speed;
+  if (speed.rounds < 1) throw Error(fmt::format("plumb: --rounds {}: give 1 or more", speed.rounds));
+  if (speed.scenes.empty()) speed.scenes = default_scenes();
+  std::tie(speed.width, speed.height) = parse_size("--size", options.size);
+  speed.threads = options.run.threads.value_or(1);
+  if (speed.threads == 0) speed.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (options.simd == "all") {
+    speed.targets = simd_targets();
+  } else {
+    speed.targets = {options.simd == "auto" ? simd_targets().front() : parse_simd(options.simd)};
   }
+  return speed;
+}
+
+ExitStatus run_speed(const ReportOptions& options) {
+  SpeedReport report{
+      speed_options(options), bench::machine_name(), bench::compiler_name(), bench::embree_version(), {}};
+  if (options.html)
+    plot_svg({"", "", "", {{"", 1.0, 1.0, 0}}, {""}});  // before the work: whether it can be drawn
+  for (const std::string& scene : report.options.scenes) {
+    report.scenes.push_back(measure_scene(scene, report.options, progress_bar(scene)));
+    fmt::print(stderr, "measured {}\n", scene);
+  }
+  if (options.html) {
+    const std::string page = speed_page(report);
+    write_file(*options.html, std::as_bytes(std::span(page)));
+    fmt::print(stderr, "wrote {}\n", *options.html);
+  }
+  print_line(options.json ? speed_json(report) : speed_table(report));
+  return report.agrees() ? kAgree : kDiffer;
+}
+
+ExitStatus run_report(const ReportOptions& options) {
+  if (options.run.threads.value_or(0) < 0) {
+    throw Error(fmt::format("plumb: --threads {}: give 0 or more", *options.run.threads));
+  }
+  if (!options.hard) return run_speed(options);
   if (options.run.instances == 0) throw Error("plumb: --instances 0: give 1 or more");
   return run_hard(options);
 }
@@ -101,7 +155,22 @@ ExitStatus run_report(const ReportOptions& options) {
 void add_report_command(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("report", "Show how exact plumb is, and what else there is");
   const auto options = std::make_shared<ReportOptions>();
-  command->add_flag("--hard", options->hard, "hard cases: every method and peer against exact arithmetic");
+  command->add_option(
+      "SCENE", options->speed.scenes,
+      "mesh files or builtin:NAME[:SIZE], of which speed is shown against error; a few built-in ones");
+  command->add_option("--size", options->size, "the frame in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command->add_option("--simd", options->simd, "instruction set: auto (the best), a name, or all")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command->add_option("--rounds", options->speed.rounds, "how often each is timed; medians count")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--html", options->html, "write one page with tables, plots and pictures")
+      ->type_name("FILE.html");
+  command->add_flag("--hard", options->hard,
+                    "instead, hard cases: every method and peer against exact arithmetic");
   command->add_option("--seed", options->run.seed, "of what is drawn; another seed draws other instances")
       ->type_name("S")
       ->capture_default_str();
@@ -110,9 +179,8 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--cases", options->run.cases, "only these, with commas between")->type_name("LIST");
-  command->add_option("--threads", options->run.threads, "0 takes all")
-      ->type_name("N")
-      ->capture_default_str();
+  command->add_option("--threads", options->run.threads, "0 takes all; 1 unless said, with --hard all")
+      ->type_name("N");
   command->add_option("--out", options->out, "write the report as Markdown")->type_name("FILE.md");
   command->add_flag("--json", options->json, "print the report as JSON on standard output");
   command->footer(report_help());

@@ -150,7 +150,8 @@ CaseResult run_case(const cases::Case& hard_case, const std::vector<Answerer>& a
       [&] { return empty_result(hard_case, answerers.size()); });
   std::mutex mutex;
   std::uint64_t done = 0;
-  tbb::task_arena arena(options.threads == 0 ? int{tbb::task_arena::automatic} : options.threads);
+  const int threads = options.threads.value_or(0);
+  tbb::task_arena arena(threads == 0 ? int{tbb::task_arena::automatic} : threads);
   arena.execute([&] {
     tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t index) {
       run_instance(hard_case, index, answerers, options.seed, parts.local());

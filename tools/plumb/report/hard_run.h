@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct HardOptions {
   std::uint64_t seed = 1;
   std::uint64_t instances = 1000;  ///< of a case of cost 1; others have their share, at least one
   std::string cases;               ///< names with commas between; all, when empty
-  int threads = 0;                 ///< 0: all
+  std::optional<int> threads;      ///< 0 or nothing: all
 };
 
 /// What one was asked of a case.
