@@ -106,16 +106,24 @@ class Document {
     line("([tests/oracle](../tests/oracle)), which shares no code with the library;");
     line("[visibility.md](visibility.md) defines what it is. Asked are\n");
     line("- plumb: {} on every instruction set of the machine ({})", methods, targets);
+    bool has_peers = false;
     for (const Answerer& answerer : report_.answerers) {
-      if (answerer.is_peer()) line("- `{}`: {}; {}", answerer.method, answerer.version, answerer.remark);
+      if (!answerer.is_peer()) continue;
+      line("- `{}`: {}; {}", answerer.method, answerer.version, answerer.remark);
+      has_peers = true;
     }
-    line("\nA peer promises other things: which of two surfaces in one place it sees is its own affair, and");
-    line("so counted apart.\n");
+    if (has_peers) {
+      line(
+          "\nA peer promises other things: which of two surfaces in one place it sees is its own affair, "
+          "and");
+      line("so counted apart.");
+    }
+    line("");
     line(
         "- **wrong ids**: another triangle than the definition's, or one where there is none, or none where");
     line("  there is one; the sum of the next four.");
     line("- **lost**, **extra**: nothing seen where something is, something where nothing is.");
-    line("- **other surface**: a triangle whose plane is not at the exact depth there.");
+    line("- **other surface**: a triangle whose plane is not at the exact depth there, be it by one float.");
     line("- **same depth**: another triangle, whose plane is at the exact depth.");
     line("- **other depths**: on the right surface, a depth that is not the exact one rounded once to the");
     line("  nearest float; **ulps** is how many floats the worst of them is off.");
