@@ -167,6 +167,8 @@ nlohmann::json to_json(const Info& info) {
             {"odd_edges", t.odd_edges},
             {"turned_edges", t.turned_edges},
             {"non_manifold_positions", t.non_manifold_positions},
+            {"unjoined_triangles", t.unjoined_triangles},
+            {"first_unjoined", t.first_unjoined},
             {"components", t.components},
             {"boundary_loops", t.boundary_loops},
             {"euler_characteristic", t.euler_characteristic},
