@@ -16,6 +16,7 @@
 #include "progress_bar.h"
 #include "report/hard_document.h"
 #include "report/hard_run.h"
+#include "scene.h"
 #include "text.h"
 #include "verdict.h"
 
@@ -47,9 +48,15 @@ std::vector<const cases::Case*> parse_cases(const std::string& list) {
 
 std::string report_help() {
   std::string text =
-      "--hard draws scenes of each hard case, asks every method on every instruction set and the peers of "
-      "this\n"
-      "build, and compares each answer with rational arithmetic.\n\nHard cases:\n";
+      R"(--hard draws scenes of each hard case, asks every method on every instruction set and the peers of this
+build, and compares each answer with rational arithmetic.
+
+Examples:
+  plumb report --hard --out hard-cases.md
+  plumb report --hard --cases sliver,shared-edge --instances 100 --json
+
+Hard cases:
+)";
   for (const cases::Case& hard_case : cases::all_cases()) {
     fmt::format_to(std::back_inserter(text), "  {}\n", hard_case.name);
   }
@@ -89,9 +96,7 @@ ExitStatus run_hard(const ReportOptions& options) {
 
 ExitStatus run_report(const ReportOptions& options) {
   if (!options.hard) throw Error("plumb: report: say which report; there is --hard");
-  if (options.run.threads < 0) {
-    throw Error(fmt::format("plumb: --threads {}: give 0 or more", options.run.threads));
-  }
+  check_threads(options.run.threads);
   if (options.run.instances == 0) throw Error("plumb: --instances 0: give 1 or more");
   return run_hard(options);
 }
@@ -110,9 +115,7 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--cases", options->run.cases, "only these, with commas between")->type_name("LIST");
-  command->add_option("--threads", options->run.threads, "0 takes all")
-      ->type_name("N")
-      ->capture_default_str();
+  add_threads_option(*command, options->run.threads);
   command->add_option("--out", options->out, "write the report as Markdown")->type_name("FILE.md");
   command->add_flag("--json", options->json, "print the report as JSON on standard output");
   command->footer(report_help());
