@@ -10,11 +10,9 @@
 #include "plumb/builtin.h"
 #include "plumb/bvh.h"
 #include "plumb/simd.h"
-#include "plumb/topology.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
 #include "support/random.h"
-#include "support/shared_data.h"
 
 // Closed means closed: what docs/visibility.md promises of rays and closed surfaces, above all of those
 // that go exactly through vertices and edges. Coordinates are small integers or halves of them, so that
@@ -249,32 +247,6 @@ TEST_SUITE("closed surfaces") {
       }
     }
     CHECK(inside_points > 30u / hard::kEffortDivisor);
-  }
-
-  TEST_CASE("loaded meshes that are closed are left as often as entered") {
-    PLUMB_REQUIRE_SHARED();
-    Random random(5);
-    std::vector<Hit> hits;
-    std::size_t meshes = 0, crossings = 0;
-    for (const std::string& scene : shared::scenes()) {
-      const TriangleMesh mesh = shared::load_scene(scene);
-      if (mesh.triangles.size() > 200'000 || !topology(mesh).closed()) continue;
-      CAPTURE(scene);
-      ++meshes;
-      const std::vector<NamedTree> trees = trees_over(mesh);
-      for (int i = 0; i < hard::effort(3000); ++i) {
-        const glm::vec3 origin = outside_point(random) * 0.25f;
-        const glm::vec3 direction = random.pick(mesh.positions) - origin;
-        for (const NamedTree& tree : trees) {
-          CAPTURE(tree.name);
-          tree.bvh.all({origin, 0.0f, direction}, hits);
-          CHECK(hits.size() % 2 == 0);
-          crossings += hits.size();
-        }
-      }
-    }
-    CHECK(meshes > 0);
-    CHECK(crossings > 0);
   }
 
   TEST_CASE("a cloud of balls is left as often as entered, from anywhere outside and any direction") {

@@ -10,6 +10,7 @@
 #include "plumb/error.h"
 #include "plumb/topology.h"
 #include "support/closed_meshes.h"
+#include "support/random.h"
 
 using namespace plumb;
 
@@ -67,6 +68,23 @@ TriangleMesh band(std::uint32_t n, bool half_turn) {
   return mesh;
 }
 
+// A grid of n x n quads whose opposite sides are one, the one pair the other way round.
+TriangleMesh klein_bottle(std::uint32_t n) {
+  TriangleMesh mesh;
+  const auto vertex = [&](std::uint32_t x, std::uint32_t y) {
+    const bool is_seam = x == n;
+    return (is_seam ? 0 : x) * n + (is_seam ? n - y % n : y) % n;
+  };
+  for (std::uint32_t x = 0; x < n; ++x) {
+    for (std::uint32_t y = 0; y < n; ++y) {
+      mesh.positions.emplace_back(x, y, 0);  // where it lies is of no matter
+      mesh.triangles.emplace_back(vertex(x, y), vertex(x + 1, y), vertex(x, y + 1));
+      mesh.triangles.emplace_back(vertex(x, y + 1), vertex(x + 1, y), vertex(x + 1, y + 1));
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 TEST_SUITE("topology") {
@@ -114,14 +132,28 @@ TEST_SUITE("topology") {
     CHECK(ring.oriented());
   }
 
-  TEST_CASE("a Moebius band has one edge along which its sides disagree, and is cut there") {
+  TEST_CASE("a Moebius band is manifold and not oriented, with one boundary") {
     const Topology t = topology(band(12, true));
     CHECK(t.turned_edges == 1);
     CHECK_FALSE(t.oriented());
+    CHECK(t.manifold());
     CHECK(t.boundary_edges == 24);
+    CHECK(t.boundary_loops == 1);
     CHECK(t.non_manifold_edges == 0);
     CHECK(t.components == 1);
-    CHECK(t.euler_characteristic == 1);  // of the strip that is left
+    CHECK(t.euler_characteristic == 0);
+    CHECK(t.unjoined_triangles == 2);
+    CHECK(t.first_unjoined == std::vector<std::uint32_t>{0, 23});
+  }
+
+  TEST_CASE("a Klein bottle is closed and manifold, and cannot be oriented") {
+    const Topology t = topology(klein_bottle(9));
+    CHECK(t.closed());
+    CHECK(t.manifold());
+    CHECK_FALSE(t.oriented());
+    CHECK(t.components == 1);
+    CHECK(t.boundary_loops == 0);
+    CHECK(t.euler_characteristic == 0);
   }
 
   TEST_CASE("a face turned over disagrees with its neighbours, and is closed all the same") {
@@ -130,8 +162,11 @@ TEST_SUITE("topology") {
     const Topology t = topology(mesh);
     CHECK(t.turned_edges == 3);
     CHECK(t.closed());
+    CHECK(t.manifold());
     CHECK_FALSE(t.oriented());
-    CHECK(t.components == 2);
+    CHECK(t.components == 1);
+    CHECK(t.euler_characteristic == 2);
+    CHECK(t.first_unjoined == std::vector<std::uint32_t>{0, 1, 2, 3});
   }
 
   TEST_CASE("two tetrahedra that share a vertex, an edge or a face") {
@@ -154,6 +189,9 @@ TEST_SUITE("topology") {
     CHECK(edge.odd_edges == 0);
     CHECK(edge.closed());
     CHECK_FALSE(edge.manifold());
+    CHECK_FALSE(edge.oriented());
+    CHECK(edge.components == 1);
+    CHECK(edge.unjoined_triangles == 4);
 
     const Topology same = topology(both(tetrahedron(), tetrahedron()));
     CHECK(same.duplicates == 4);
@@ -171,7 +209,10 @@ TEST_SUITE("topology") {
     CHECK(t.boundary_edges == 2);
     CHECK_FALSE(t.closed());
     CHECK_FALSE(t.manifold());
-    CHECK(t.components == 2);
+    CHECK(t.components == 1);
+    CHECK(t.euler_characteristic == 2);  // taken apart there: the fin, and a tetrahedron slit open
+    CHECK(t.boundary_loops == 2);
+    CHECK(t.first_unjoined == std::vector<std::uint32_t>{0, 1, 4});
   }
 
   TEST_CASE("non-finite, collapsed and degenerate triangles are told apart") {
@@ -214,6 +255,23 @@ TEST_SUITE("topology") {
     CHECK(terrain.boundary_loops == 1);
     CHECK(terrain.euler_characteristic == 1);
     CHECK(topology(builtin_scene("soup:1000").mesh).components == 1000);
+  }
+
+  TEST_CASE("a hundred thousand triangles about one vertex, in any order, take no n^2 time") {
+    constexpr std::uint32_t kCount = 100'000;
+    TriangleMesh mesh;
+    mesh.positions.emplace_back(0.0f, 0.0f, 1.0f);
+    for (std::uint32_t i = 1; i <= kCount; ++i) {
+      mesh.positions.emplace_back(i, i % 2, 0);
+      mesh.triangles.emplace_back(0, i, i % kCount + 1);
+    }
+    hard::Random random(1);
+    random.shuffle(mesh.triangles);
+    const Topology t = topology(mesh);
+    CHECK(t.manifold());
+    CHECK(t.boundary_edges == kCount);
+    CHECK(t.boundary_loops == 1);
+    CHECK(t.euler_characteristic == 1);
   }
 
   TEST_CASE("progress rises and cancels, and an index out of range is an error") {

@@ -1,7 +1,6 @@
 #include "plumb/topology.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -10,40 +9,28 @@
 #include <utility>
 #include <vector>
 
-#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
-
 #include "base/fp_mode.h"
 #include "base/parallel.h"
 #include "build/mesh_check.h"
+#include "io/cover.h"
 #include "io/degenerate.h"
+#include "io/disjoint_sets.h"
+#include "io/half_edges.h"
 #include "plumb/error.h"
 
 // OpenMesh's half-edges can only hold a surface that is everywhere a disk or half a disk with one
-// orientation, and refuse (and print) what is not. So edges are first matched by sorting; about each position
-// the corners that edges of exactly two triangles join are collected into fans; and each fan becomes a vertex
-// of OpenMesh's. What remains cut is what cannot be joined.
+// orientation, and refuse what is not. So edges are first matched by sorting; about each position the corners
+// that edges of exactly two triangles join are collected into fans; and each fan becomes a vertex of
+// OpenMesh's. Where triangles disagree which side is the front, io/cover.h helps.
 
 namespace plumb {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using detail::Corners;
+
+constexpr std::size_t kMostTriangles = 150'000'000;  // OpenMesh counts half-edges in an int, twelve for each
 
 bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-/// Disjoint sets of corners (Galler and Fischer 1964), with path halving.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// For each vertex the first one at the same position.
 std::vector<std::uint32_t> first_at_position(MeshView mesh) {
@@ -82,12 +69,18 @@ void count_vertices(MeshView mesh, const std::vector<std::uint32_t>& first, Topo
   }
 }
 
-/// The triangles that count, by their positions' first vertices.
-std::vector<Corners> kept_triangles(MeshView mesh, const std::vector<std::uint32_t>& first,
-                                    Topology& result) {
-  std::vector<Corners> kept;
-  kept.reserve(mesh.triangles.size());
-  for (const glm::uvec3& t : mesh.triangles) {
+/// The triangles that count.
+struct Kept {
+  std::vector<Corners> triangles;  // by their positions' first vertices
+  std::vector<std::uint32_t> ids;  // in the mesh
+};
+
+Kept kept_triangles(MeshView mesh, const std::vector<std::uint32_t>& first, Topology& result) {
+  Kept kept;
+  kept.triangles.reserve(mesh.triangles.size());
+  kept.ids.reserve(mesh.triangles.size());
+  for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
+    const glm::uvec3& t = mesh.triangles[id];
     const detail::Triangle triangle{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
     if (!is_finite(triangle.v0) || !is_finite(triangle.v1) || !is_finite(triangle.v2)) {
       ++result.non_finite;
@@ -97,9 +90,11 @@ std::vector<Corners> kept_triangles(MeshView mesh, const std::vector<std::uint32
     const bool collapsed = c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
     result.collapsed += collapsed ? 1 : 0;
     result.degenerate += collapsed || detail::has_no_area(triangle) ? 1 : 0;
-    if (!collapsed) kept.push_back(c);
+    if (collapsed) continue;
+    kept.triangles.push_back(c);
+    kept.ids.push_back(id);
   }
-  result.triangles = kept.size();
+  result.triangles = kept.triangles.size();
   return kept;
 }
 
@@ -133,114 +128,52 @@ std::vector<Side> sorted_sides(const std::vector<Corners>& triangles) {
   return sides;
 }
 
-std::uint32_t next_corner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-/// Counts the edges, and joins the corners at the ends of those that two triangles share as neighbours do.
-void match_sides(const std::vector<Side>& sides, Sets& fans, Topology& result) {
+/// For each side the one other that shares its edge, or kNoMate. Counts edges, parts and what cannot be
+/// joined.
+std::vector<std::uint32_t> match_sides(const Kept& kept, Topology& result) {
+  const std::vector<Side> sides = sorted_sides(kept.triangles);
+  std::vector<std::uint32_t> mates(sides.size(), detail::kNoMate);
+  std::vector<bool> unjoined(kept.triangles.size(), false);
+  detail::DisjointSets parts(kept.triangles.size());
+  result.components = kept.triangles.size();
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high)
-      ++end;
+    const Side& a = sides[begin];
+    for (end = begin + 1; end < sides.size() && sides[end].low == a.low && sides[end].high == a.high; ++end) {
+      if (parts.join(a.corner / 3, sides[end].corner / 3)) --result.components;
+    }
     const std::size_t count = end - begin;
+    const bool is_turned = count == 2 && a.rises == sides[begin + 1].rises;
     ++result.edges;
     result.boundary_edges += count == 1 ? 1 : 0;
     result.non_manifold_edges += count > 2 ? 1 : 0;
     result.odd_edges += count % 2;
-    if (count != 2) continue;
-    const Side& a = sides[begin];
-    const Side& b = sides[begin + 1];
-    if (a.rises == b.rises) {
-      ++result.turned_edges;
-      continue;
+    result.turned_edges += is_turned ? 1 : 0;
+    if (count == 2) {
+      mates[a.corner] = sides[begin + 1].corner;
+      mates[sides[begin + 1].corner] = a.corner;
     }
-    fans.join(a.corner, next_corner(b.corner));
-    fans.join(next_corner(a.corner), b.corner);
+    if (count == 2 && !is_turned) continue;
+    for (std::size_t i = begin; count > 1 && i < end; ++i) unjoined[sides[i].corner / 3] = true;
   }
+  for (std::size_t i = 0; i < unjoined.size(); ++i) {
+    if (!unjoined[i]) continue;
+    ++result.unjoined_triangles;
+    if (result.first_unjoined.size() < Topology::kMaxListed) result.first_unjoined.push_back(kept.ids[i]);
+  }
+  return mates;
 }
 
 /// Counts positions, and those with several fans.
-void count_fans(const std::vector<Corners>& triangles, Sets& fans, std::size_t vertices, Topology& result) {
-  constexpr std::uint32_t kNoFan = 0xffffffffu;
-  std::vector<std::uint32_t> fan_at(vertices, kNoFan);
-  std::vector<bool> several(vertices, false);
-  for (std::uint32_t corner = 0; corner < 3 * triangles.size(); ++corner) {
-    const std::uint32_t position = triangles[corner / 3][corner % 3];
-    const std::uint32_t fan = fans.find(corner);
-    if (fan_at[position] == kNoFan) ++result.positions;
-    if (fan_at[position] != kNoFan && fan_at[position] != fan) several[position] = true;
-    fan_at[position] = fan;
+void count_fans(const detail::Cover& cover, detail::DisjointSets& fans, std::size_t vertices,
+                Topology& result) {
+  std::vector<std::uint32_t> fans_at(vertices, 0);
+  for (std::uint32_t corner = 0; corner < cover.mates().size(); ++corner) {
+    if (fans.find(corner) == corner) ++fans_at[cover.position(corner)];
   }
-  result.non_manifold_positions = static_cast<std::size_t>(std::count(several.begin(), several.end(), true));
-}
-
-using HalfEdges = OpenMesh::TriConnectivity;
-constexpr std::size_t kMostTriangles = 300'000'000;  // OpenMesh counts half-edges in an int
-constexpr std::uint32_t kReport = 4096;              // triangles between two calls of progress
-
-/// The triangles with a vertex for each fan. One whose side is there already, on the same side of the
-/// surface, gets vertices of its own: OpenMesh would refuse it.
-HalfEdges half_edges(const std::vector<Corners>& triangles, Sets& fans, detail::Progress& progress) {
-  HalfEdges surface;
-  surface.reserve(triangles.size() / 2 + 3, 3 * triangles.size() / 2 + 3, triangles.size());
-  std::vector<HalfEdges::VertexHandle> vertex_of(3 * triangles.size());
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    HalfEdges::VertexHandle corners[3];
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      HalfEdges::VertexHandle& vertex = vertex_of[fans.find(3 * i + k)];
-      if (!vertex.is_valid()) vertex = surface.new_vertex();
-      corners[k] = vertex;
-    }
-    bool is_free = true;
-    for (int k = 0; k < 3; ++k) {
-      const HalfEdges::HalfedgeHandle side = surface.find_halfedge(corners[k], corners[(k + 1) % 3]);
-      is_free = is_free && (!side.is_valid() || surface.is_boundary(side));
-    }
-    for (HalfEdges::VertexHandle& corner : corners) {
-      if (!is_free) corner = surface.new_vertex();
-    }
-    surface.add_face(corners, 3);
-    if (i % kReport == kReport - 1) {
-      progress.add(kReport);
-      progress.throw_if_cancelled();
-    }
+  for (const std::uint32_t count : fans_at) {
+    result.positions += count != 0 ? 1 : 0;
+    result.non_manifold_positions += count > cover.sheets() ? 1 : 0;
   }
-  return surface;
-}
-
-std::size_t count_components(const HalfEdges& surface) {
-  Sets sets(surface.n_faces());
-  std::size_t count = surface.n_faces();
-  for (const auto edge : surface.edges()) {
-    const HalfEdges::FaceHandle a = surface.face_handle(surface.halfedge_handle(edge, 0));
-    const HalfEdges::FaceHandle b = surface.face_handle(surface.halfedge_handle(edge, 1));
-    if (!a.is_valid() || !b.is_valid()) continue;
-    const std::uint32_t x = sets.find(static_cast<std::uint32_t>(a.idx()));
-    const std::uint32_t y = sets.find(static_cast<std::uint32_t>(b.idx()));
-    if (x == y) continue;
-    sets.join(x, y);
-    --count;
-  }
-  return count;
-}
-
-std::size_t count_boundary_loops(const HalfEdges& surface) {
-  std::vector<bool> seen(surface.n_halfedges(), false);
-  std::size_t loops = 0;
-  for (const auto start : surface.halfedges()) {
-    if (!surface.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())]) continue;
-    ++loops;
-    for (HalfEdges::HalfedgeHandle at = start; !seen[static_cast<std::size_t>(at.idx())];
-         at = surface.next_halfedge_handle(at)) {
-      seen[static_cast<std::size_t>(at.idx())] = true;
-    }
-  }
-  return loops;
-}
-
-/// Vertices that belong to a triangle: a fan whose triangles all got vertices of their own has none.
-std::size_t count_used_vertices(const HalfEdges& surface) {
-  std::size_t count = 0;
-  for (const auto vertex : surface.vertices()) count += surface.is_isolated(vertex) ? 0u : 1u;
-  return count;
 }
 
 Topology analyse(MeshView mesh, const std::function<bool(double)>& progress_call) {
@@ -253,20 +186,19 @@ Topology analyse(MeshView mesh, const std::function<bool(double)>& progress_call
   const std::vector<std::uint32_t> first = first_at_position(mesh);
   count_vertices(mesh, first, result);
   step();
-  const std::vector<Corners> triangles = kept_triangles(mesh, first, result);
-  result.duplicates = count_duplicates(triangles);
+  const Kept kept = kept_triangles(mesh, first, result);
+  result.duplicates = count_duplicates(kept.triangles);
   step();
-  Sets fans(3 * triangles.size());
-  match_sides(sorted_sides(triangles), fans, result);
+  std::vector<std::uint32_t> mates = match_sides(kept, result);
   step();
-  count_fans(triangles, fans, mesh.positions.size(), result);
+  const detail::Cover cover(kept.triangles, std::move(mates), result.turned_edges != 0);
+  detail::DisjointSets fans = cover.fans();
+  count_fans(cover, fans, mesh.positions.size(), result);
   step();
-  const HalfEdges surface = half_edges(triangles, fans, progress);
-  result.components = count_components(surface);
-  result.boundary_loops = count_boundary_loops(surface);
-  result.euler_characteristic =
-      static_cast<std::ptrdiff_t>(count_used_vertices(surface) + surface.n_faces()) -
-      static_cast<std::ptrdiff_t>(surface.n_edges());
+  const detail::SurfaceCounts counts = detail::count_surface(cover, fans);
+  result.boundary_loops = counts.boundary_loops;
+  result.euler_characteristic = counts.euler_characteristic;
+  step();
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -88,6 +89,22 @@ T parse(const fs::path& path, const std::string& word) {
   return value;
 }
 
+// "1,234" as a number; a word is none.
+std::optional<std::size_t> count_in(std::string cell) {
+  std::erase_if(cell, [](char c) { return c == ',' || c == ' ' || c == '`'; });
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::istringstream in(text);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  return parts;
+}
+
 }  // namespace
 
 bool available() { return fs::exists(root() / "truth" / "cameras.txt"); }
@@ -147,6 +164,24 @@ TriangleMesh load_scene(const std::string& scene) {
   }
   if (!in.at_end()) fail(path, "goes on after its last face");
   return mesh;
+}
+
+std::vector<SceneFacts> scene_facts() {
+  const fs::path path = root() / "scenes" / "README.md";
+  std::vector<SceneFacts> result;
+  for (const std::string& line : split(read_file(path), '\n')) {
+    // | name | triangles | vertices | MB | class | min | max | a / b / c | duplicate | slivers | open | over
+    // 2 |
+    const std::vector<std::string> cells = split(line, '|');
+    if (cells.size() != 13 || !cells[1].starts_with(" `")) continue;
+    std::vector<std::string> degenerate = split(cells[8], '/');
+    degenerate.resize(3);
+    result.push_back({cells[1].substr(2, cells[1].size() - 4), count_in(cells[2]), count_in(cells[3]),
+                      count_in(degenerate[0]), count_in(degenerate[1]), count_in(degenerate[2]),
+                      count_in(cells[9]), count_in(cells[11]), count_in(cells[12])});
+  }
+  if (result.empty()) fail(path, "has no table of scenes");
+  return result;
 }
 
 std::vector<Ray> rays(const std::string& scene) {

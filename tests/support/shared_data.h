@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,15 @@ std::vector<std::string> scenes();
 
 /// Binary little-endian PLY of `float x y z` and `list uchar int vertex_indices`, all triangles.
 TriangleMesh load_scene(const std::string& scene);
+
+/// What scenes/README.md says of a scene, found by other programs. A cell without a number is empty.
+struct SceneFacts {
+  std::string name;
+  std::optional<std::size_t> triangles, vertices, repeated_index, collapsed, degenerate, duplicates,
+      open_edges,
+      edges_of_many;  ///< of more than two triangles; edges and collapsed triangles are told by position
+};
+std::vector<SceneFacts> scene_facts();
 
 /// The hard rays of a scene and their closest hits, one for each.
 std::vector<Ray> rays(const std::string& scene);

@@ -109,13 +109,25 @@ TEST_CASE("help and version are printed on standard output with status 0") {
   const ToolRun version = run_tool("--version");
   CHECK(version.status == 0);
   CHECK(version.out == "plumb " PLUMB_VERSION "\n");
-  CHECK(has(run_tool("--help").out, "compare"));
+  for (const std::string part : {"compare", "render", "info", "soak", "report", "Exit status", "Examples"}) {
+    CHECK(has(run_tool("--help").out, part));
+  }
+  for (const std::string command : {"info", "soak", "report"}) {
+    const ToolRun help = run_tool(command + " --help");
+    CHECK(help.status == 0);
+    CHECK(help.err.empty());
+    for (const std::string part : {"--threads", "--json", "Examples:\n", "Exit status: 0"}) {
+      CAPTURE(part);
+      CHECK(has(help.out, part));
+    }
+  }
   for (const std::string command : {"compare", "render"}) {
     const ToolRun help = run_tool(command + " --help");
     CHECK(help.status == 0);
     CHECK(help.err.empty());
-    for (const std::string part : {"SCENE", "--size", "--eye", "--target", "--up", "--fov", "--simd",
-                                   "--threads", "--out", "raster", "teapot-in-stadium", "Exit status"}) {
+    for (const std::string part :
+         {"SCENE", "--size", "--eye", "--target", "--up", "--fov", "--simd", "--threads", "--out",
+          "Examples:\n", "raster", "teapot-in-stadium", "Exit status"}) {
       CAPTURE(part);
       CHECK(has(help.out, part));
     }

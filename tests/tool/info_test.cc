@@ -21,6 +21,7 @@ TEST_SUITE_BEGIN("tool: info");
 TEST_CASE("info says on standard output what a mesh and its trees are like") {
   const ToolRun run = run_tool("info builtin:spheres:8");
   CHECK(run.status == 0);
+  CHECK(run.err.empty());
   CHECK(has(run.out, "triangles             8\n"));
   CHECK(has(run.out, "closed                yes\n"));
   CHECK(has(run.out, "Euler characteristic  2\n"));
@@ -56,20 +57,45 @@ TEST_CASE("info --json holds what docs/tool.md says") {
   CHECK(tree.at("bytes_per_triangle").get<double>() > 0.0);
 }
 
+TEST_CASE("info lists the triangles that half-edges cannot hold as they are") {
+  const TempFolder folder;
+  std::ofstream(folder / "fin.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\n"
+                                    << "f 3 4 5\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
+  const ToolRun run = run_tool("info " + (folder / "fin.obj").string());
+  CAPTURE(run.out);
+  CHECK(has(run.out, "no half-edges for     3 triangles as they are: 1, 2, 3\n"));
+  CHECK(has(run.out, "manifold              no: 1 edge of three triangles or more, "));
+  CHECK(has(run.out, "components            2\n"));
+  CHECK(has(run.out, "boundary              9 edges in 4 loops (of the surface taken apart"));
+}
+
+TEST_CASE("a file whose name is no text has info too") {
+  const TempFolder folder;
+  const std::string path = (folder / "\xff.off").string();
+  std::ofstream(path) << "OFF\n0 0 0\n";
+  const ToolRun run = run_tool("info --json '" + path + "'");
+  CAPTURE(run.err);
+  REQUIRE(run.status == 0);
+  CHECK(nlohmann::json::parse(run.out)["scene"]["triangles"] == 0);
+}
+
 TEST_CASE("an empty mesh has info too") {
   const TempFolder folder;
   std::ofstream(folder / "empty.off") << "OFF\n0 0 0\n";
   const ToolRun run = run_tool("info " + (folder / "empty.off").string());
   CHECK(run.status == 0);
   CHECK(has(run.out, "box                   empty\n"));
-  CHECK(has(run.out, "closed                no\n"));
+  CHECK(has(run.out, "closed                no: there is nothing\n"));
   CHECK(run_tool("info " + (folder / "empty.off").string() + " --json").status == 0);
 }
 
 TEST_CASE("a width that is none, or a file that is none, ends in status 2") {
   CHECK(run_tool("info builtin:grid:2 --width 3").status == 2);
   CHECK(has(run_tool("info builtin:grid:2 --width 3").err, "--width 3"));
+  CHECK(has(run_tool("info builtin:grid:2 --threads -2").err, "--threads -2"));
+  CHECK(run_tool("info builtin:grid:2 --threads -2").status == 2);
   CHECK(run_tool("info /none.ply").status == 2);
+  CHECK(run_tool("info --json builtin:grid:2", "> /dev/full").status == 2);
 }
 
 TEST_SUITE_END();

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
+#include "help.h"
 #include "plumb/version.h"
 #include "verdict.h"
 
@@ -26,6 +27,7 @@ int run(int argc, char** argv) {
   CLI::App app("What does this ray, this camera, see? Exactly, by rays and by triangles.", "plumb");
   app.set_version_flag("--version", "plumb " PLUMB_VERSION);
   app.require_subcommand(1);
+  app.footer(main_help());
   int status = kAgree;
   add_compare_command(app, status);
   add_render_command(app, status);

@@ -23,6 +23,7 @@
 #include "report/hard_run.h"
 #include "report/plot.h"
 #include "report/speed_run.h"
+#include "scene.h"
 #include "text.h"
 #include "verdict.h"
 
@@ -57,14 +58,21 @@ std::vector<const cases::Case*> parse_cases(const std::string& list) {
 
 std::string report_help() {
   std::string text =
-      "Times every arithmetic, method and instruction set, and the peers of this build, in turns on the same "
-      "rays,\n"
-      "and shows beside each how many triangles per million are wrong and how far off the depths are, "
-      "against the\n"
-      "exact answers: on standard output, as JSON, or as a page (which needs gnuplot).\n\n"
-      "--hard draws scenes of each hard case, asks every method on every instruction set and the peers of "
-      "this\n"
-      "build, and compares each answer with rational arithmetic.\n\nHard cases:\n";
+      R"(Times every arithmetic, method and instruction set, and the peers of this build, in turns on the same rays,
+and shows beside each how many triangles per million are wrong and how far off the depths are, against the
+exact answers: on standard output, as JSON, or as a page (which needs gnuplot).
+
+--hard draws scenes of each hard case, asks every method on every instruction set and the peers of this
+build, and compares each answer with rational arithmetic.
+
+Examples:
+  plumb report --html report.html
+  plumb report bunny.ply builtin:ties --simd all --json
+  plumb report --hard --out hard-cases.md
+  plumb report --hard --cases sliver,shared-edge --instances 100 --json
+
+Hard cases:
+)";
   for (const cases::Case& hard_case : cases::all_cases()) {
     fmt::format_to(std::back_inserter(text), "  {}\n", hard_case.name);
   }
@@ -142,9 +150,7 @@ ExitStatus run_speed(const ReportOptions& options) {
 }
 
 ExitStatus run_report(const ReportOptions& options) {
-  if (options.run.threads.value_or(0) < 0) {
-    throw Error(fmt::format("plumb: --threads {}: give 0 or more", *options.run.threads));
-  }
+  check_threads(options.run.threads.value_or(0));
   if (!options.hard) return run_speed(options);
   if (options.run.instances == 0) throw Error("plumb: --instances 0: give 1 or more");
   return run_hard(options);

@@ -74,6 +74,12 @@ void add_scene_option(CLI::App& command, std::string& scene) {
       ->capture_default_str();
 }
 
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "threads; 0 takes all that the process may use")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
 void add_frame_options(CLI::App& command, FrameOptions& options) {
   add_scene_option(command, options.scene);
   command.add_option("--size", options.size, "the frame in pixels")->type_name("WxH")->capture_default_str();
@@ -84,9 +90,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   command.add_option("--simd", options.simd, "instruction set: auto (the best), a name, or all")
       ->type_name("NAME")
       ->capture_default_str();
-  command.add_option("--threads", options.threads, "threads; 0 takes all")
-      ->type_name("N")
-      ->capture_default_str();
+  add_threads_option(command, options.threads);
 }
 
 Scene open_scene(const FrameOptions& options) {

@@ -10,9 +10,11 @@
 
 namespace plumb::tool {
 
+inline constexpr const char* kDefaultScene = "builtin:teapot-in-stadium";
+
 /// What every subcommand that makes frames takes.
 struct FrameOptions {
-  std::string scene = "builtin:teapot-in-stadium";
+  std::string scene = kDefaultScene;
   std::string size = "1280x720";
   std::optional<std::string> eye, target, up;
   std::optional<double> fov;
@@ -22,6 +24,9 @@ struct FrameOptions {
 
 /// Adds SCENE to a subcommand.
 void add_scene_option(CLI::App& command, std::string& scene);
+
+/// Adds --threads to a subcommand.
+void add_threads_option(CLI::App& command, int& threads);
 
 /// Adds them to a subcommand; they are filled when the command line is parsed.
 void add_frame_options(CLI::App& command, FrameOptions& options);

@@ -19,14 +19,18 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "help.h"
+#include "output_file.h"
 #include "plumb/error.h"
 #include "plumb/version.h"
 #include "progress_bar.h"
+#include "scene.h"
 #include "soak/difference.h"
 #include "soak/paste.h"
 #include "soak/shrink.h"
 #include "soak/source.h"
 #include "soak/subject.h"
+#include "text.h"
 #include "verdict.h"
 
 namespace plumb::tool {
@@ -172,7 +176,7 @@ ExitStatus run_soak(const SoakOptions& options) {
   if (!(options.seconds > 0.0)) {
     throw Error(fmt::format("plumb: --seconds {}: give a time above 0", options.seconds));
   }
-  if (options.threads < 0) throw Error(fmt::format("plumb: --threads {}: give 0 or more", options.threads));
+  check_threads(options.threads);
   Soak soak(options, soak::all_subjects());
   fmt::print(stderr, "seed {}, {} s, {} methods and targets against the oracle\n", options.seed,
              options.seconds, soak.subjects().size());
@@ -195,11 +199,11 @@ ExitStatus run_soak(const SoakOptions& options) {
                           {"subject", soak.subjects()[found.difference.subject].name},
                           {"text", found.difference.text},
                           {"test", test}};
-    if (!options.json) fmt::print("{}", test);
+    if (!options.json) print_line(test);
   } else {
     fmt::print(stderr, "no answer differs from the oracle's\n");
   }
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) print_line(json.dump(2));
   return soak.found().has_value() ? kDiffer : kAgree;
 }
 
@@ -214,14 +218,9 @@ void add_soak_command(CLI::App& app, int& status) {
   command->add_option("--seed", options->seed, "of what is drawn; another seed draws other instances")
       ->type_name("S")
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "0 takes all")->type_name("N")->capture_default_str();
+  add_threads_option(*command, options->threads);
   command->add_flag("--json", options->json, "print what was compared as JSON on standard output");
-  command->footer(
-      "Every method on every instruction set is asked for closest, any and all hits, one by one and in "
-      "spans, and\n"
-      "for frames, and compared with rational arithmetic. A difference is shrunk to a smallest case, which "
-      "is\n"
-      "printed as a C++ test to paste; then the exit status is 1.");
+  command->footer(soak_help());
   command->callback([options, &status] { status = run_soak(*options); });
 }
 

@@ -63,6 +63,10 @@ std::pair<int, int> parse_size(std::string_view option, std::string_view text) {
   return {width, height};
 }
 
+void check_threads(int threads) {
+  if (threads < 0) throw Error(fmt::format("plumb: --threads {}: give 0 or more", threads));
+}
+
 std::vector<std::string> split_list(std::string_view text) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {

@@ -18,6 +18,9 @@ glm::vec3 parse_vec3(std::string_view option, std::string_view text);
 /// "WxH": pixels, each side 1 to 65535 and at most 2^28 pixels in all.
 std::pair<int, int> parse_size(std::string_view option, std::string_view text);
 
+/// Refuses a negative number of --threads.
+void check_threads(int threads);
+
 /// The parts of a list between commas; an empty text is one empty part.
 std::vector<std::string> split_list(std::string_view text);
 
