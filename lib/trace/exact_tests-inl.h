@@ -29,6 +29,14 @@ namespace plumb::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <int W>
+HWY_INLINE Triangle TriangleOf(const TriangleBlock<W>& block, size_t lane) {
+  const auto corner = [&](int v) {
+    return glm::vec3(block.vertex[v][0][lane], block.vertex[v][1][lane], block.vertex[v][2][lane]);
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+template <int W>
 class ExactTests {
  public:
   ExactTests(const WideTree<W>& tree, const Ray& ray, float limit)
@@ -58,7 +66,7 @@ class ExactTests {
       if (count < static_cast<std::uint32_t>(W)) possible_bits &= (1u << count) - 1u;
       for (; possible_bits != 0; possible_bits &= possible_bits - 1) {
         const auto lane = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(possible_bits));
-        const Triangle triangle = triangle_of(*block, lane);
+        const Triangle triangle = TriangleOf(*block, lane);
         float t = 0.0f;
         if ((certain_bits >> lane & 1u) != 0) {
           // May be infinite, which counts on no ray: a finite t wins everywhere else, and tmax = inf is
@@ -78,13 +86,6 @@ class ExactTests {
   }
 
  private:
-  static Triangle triangle_of(const TriangleBlock<W>& block, size_t lane) {
-    const auto corner = [&](int v) {
-      return glm::vec3(block.vertex[v][0][lane], block.vertex[v][1][lane], block.vertex[v][2][lane]);
-    };
-    return {corner(0), corner(1), corner(2)};
-  }
-
   const Ray& ray_;
   BoxRay box_ray_;
   std::optional<ExactBoxRay> exact_ray_;
