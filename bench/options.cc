@@ -15,8 +15,8 @@ const char* const kUsage =
     R"(plumb_bench [SCENE...] [--table] [options] [--benchmark_...]
 
 Builds, camera, shadow and diffuse rays and frames, by every method, tree width and instruction set, with
-Embree beside them where it is installed. plumb's answers must be the binary BVH's, bit for bit,
-before a time counts.
+Embree beside them where it is installed. Exact methods' answers must be the binary BVH's, bit for bit,
+before a time counts; those of the fast and the watertight arithmetic and of Embree are counted.
 
   SCENE            builtin:NAME[:SIZE], a mesh FILE, or FILE@VIEW; unless said, the built-in scenes
   --cameras=LIST   the views of mesh files, a line each: scene view eye target up fov_y_degrees

@@ -16,13 +16,17 @@ namespace {
 
 using Trees = std::shared_ptr<Shelf<Bvh>>;
 
-// A tree of some width for an instruction set, made when first asked for.
+// A tree of some width and arithmetic for an instruction set, made when first asked for.
 struct TreeSource {
   Context context;
   Trees trees;
   BuildOptions options;
 
-  std::string method() const { return "bvh" + std::to_string(options.width); }
+  bool exact() const { return options.arithmetic == Arithmetic::Exact; }
+  std::string method() const {
+    constexpr const char* kSuffix[] = {"-fast", "-watertight", ""};
+    return "bvh" + std::to_string(options.width) + kSuffix[static_cast<int>(options.arithmetic)];
+  }
   // The binary tree is plain scalar code.
   std::string target() const { return options.width == 2 ? "" : std::string(simd_name(options.simd)); }
   std::shared_ptr<Bvh> tree(const Workload& workload) const {
@@ -44,6 +48,12 @@ void trace(const Bvh& bvh, RaySet<bool>& set, int threads) {
   });
 }
 
+// Of an exact method every bit counts, of the others what counts of a peer.
+std::size_t wrong_answers(const RaySet<Hit>& set, bool exact) {
+  return exact ? differences(set) : other_triangles(set);
+}
+std::size_t wrong_answers(const RaySet<bool>& set, bool) { return differences(set); }
+
 template <typename Set>
 Task ray_task(const TreeSource& source, Work work, Set Workload::*set) {
   const auto run = [=] {
@@ -56,14 +66,15 @@ Task ray_task(const TreeSource& source, Work work, Set Workload::*set) {
     Set& rays = (*source.context.workload()).*set;
     spoil(rays);
     run();
-    return differences(rays);
+    return wrong_answers(rays, source.exact());
   };
-  return {source.method(), source.target(), work, true, check, run};
+  return {source.method(), source.target(), work, source.exact(), check, run};
 }
 
 // A task that draws a frame. `draw(workload)` must leave it in workload.frame.
 template <typename Draw>
-Task frame_task(std::string method, std::string target, const Context& context, const Draw& draw) {
+Task frame_task(std::string method, std::string target, bool exact, const Context& context,
+                const Draw& draw) {
   const auto run = [=] {
     const std::shared_ptr<Workload> workload = context.workload();
     draw(*workload);
@@ -72,24 +83,26 @@ Task frame_task(std::string method, std::string target, const Context& context, 
   const auto check = [=] {
     run();
     const std::shared_ptr<Workload> workload = context.workload();
-    return compare(workload->frame, workload->expected_frame).different_pixels;
+    const Comparison result = compare(workload->frame, workload->expected_frame);
+    return exact ? result.different_pixels : result.different_ids;
   };
-  return {std::move(method), std::move(target), Work::Frame, true, check, run};
+  return {std::move(method), std::move(target), Work::Frame, exact, check, run};
 }
 
 Task cast_task(const TreeSource& source) {
-  return frame_task(source.method(), source.target(), source.context, [=](Workload& workload) {
-    CastOptions options;
-    options.threads = source.context.threads;
-    cast(*source.tree(workload), workload.view.camera, workload.frame, options);
-  });
+  return frame_task(source.method(), source.target(), source.exact(), source.context,
+                    [=](Workload& workload) {
+                      CastOptions options;
+                      options.threads = source.context.threads;
+                      cast(*source.tree(workload), workload.view.camera, workload.frame, options);
+                    });
 }
 
 Task raster_task(const Context& context, Simd simd) {
   RasterOptions options;
   options.threads = context.threads;
   options.simd = simd;
-  return frame_task("raster", std::string(simd_name(simd)), context, [=](Workload& workload) {
+  return frame_task("raster", std::string(simd_name(simd)), true, context, [=](Workload& workload) {
     workload.frame.clear();
     rasterize(workload.view.mesh, workload.view.camera, workload.frame, options);
   });
@@ -111,25 +124,36 @@ Task build_task(const TreeSource& source) {
   return {source.method(), source.target(), Work::Build, true, check, run};
 }
 
+// What a tree is asked for. The build does not depend on the instruction set or the arithmetic.
+void add_tree_tasks(const TreeSource& source, bool with_build, std::vector<Task>& tasks) {
+  tasks.push_back(ray_task(source, Work::Camera, &Workload::camera));
+  tasks.push_back(ray_task(source, Work::Shadow, &Workload::shadow));
+  tasks.push_back(ray_task(source, Work::Diffuse, &Workload::diffuse));
+  tasks.push_back(cast_task(source));
+  if (with_build) tasks.push_back(build_task(source));
+}
+
 }  // namespace
 
 std::vector<Task> our_tasks(const Context& context, const std::vector<Simd>& targets) {
   std::vector<Task> tasks;
   const auto trees = std::make_shared<Shelf<Bvh>>(context.trees);
   for (const Simd simd : targets) tasks.push_back(raster_task(context, simd));
+  TreeSource source{context, trees, {}};
+  source.options.threads = context.threads;
   for (const int width : {2, 4, 8}) {
     for (const Simd simd : targets) {
       if (width == 2 && simd != targets.front()) continue;
-      TreeSource source{context, trees, {}};
       source.options.width = width;
-      source.options.threads = context.threads;
       source.options.simd = simd;
-      tasks.push_back(ray_task(source, Work::Camera, &Workload::camera));
-      tasks.push_back(ray_task(source, Work::Shadow, &Workload::shadow));
-      tasks.push_back(ray_task(source, Work::Diffuse, &Workload::diffuse));
-      tasks.push_back(cast_task(source));
-      // The build does not depend on the instruction set.
-      if (simd == targets.front()) tasks.push_back(build_task(source));
+      add_tree_tasks(source, simd == targets.front(), tasks);
+    }
+  }
+  for (const Arithmetic arithmetic : {Arithmetic::Watertight, Arithmetic::Fast}) {
+    for (const Simd simd : targets) {
+      source.options.arithmetic = arithmetic;
+      source.options.simd = simd;
+      add_tree_tasks(source, false, tasks);
     }
   }
   return tasks;

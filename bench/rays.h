@@ -24,7 +24,7 @@ struct RaySet {
 /// How many answers are not the expected ones, bit for bit (a depth is never -0 or NaN).
 std::size_t differences(const RaySet<Hit>& set);
 std::size_t differences(const RaySet<bool>& set);
-/// How many see another triangle, whatever the depth: what can be asked of a peer.
+/// How many see another triangle, whatever the depth: what can be asked of arithmetic that is not exact.
 std::size_t other_triangles(const RaySet<Hit>& set);
 /// Makes every answer a wrong one, so that one that a method fails to write is found.
 void spoil(RaySet<Hit>& set);

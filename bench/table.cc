@@ -35,15 +35,15 @@ void check(const Task& task, const std::function<void(const Task&)>& after_check
   cell_of(row_of(rows, task), task.work).wrong = wrong;
 }
 
-// plumb's and the peer's in turns: ours, peer, ours, ...
+// Exact methods and the others in turns: exact, other, exact, ...
 std::vector<const Task*> in_turns(const std::vector<Task>& tasks, Work work) {
-  std::vector<const Task*> ours, peers, turns;
+  std::vector<const Task*> exact, others, turns;
   for (const Task& task : tasks) {
-    if (task.work == work) (task.exact ? ours : peers).push_back(&task);
+    if (task.work == work) (task.exact ? exact : others).push_back(&task);
   }
-  for (std::size_t i = 0; i < std::max(ours.size(), peers.size()); ++i) {
-    if (i < ours.size()) turns.push_back(ours[i]);
-    if (i < peers.size()) turns.push_back(peers[i]);
+  for (std::size_t i = 0; i < std::max(exact.size(), others.size()); ++i) {
+    if (i < exact.size()) turns.push_back(exact[i]);
+    if (i < others.size()) turns.push_back(others[i]);
   }
   return turns;
 }

@@ -24,12 +24,12 @@ inline const char* work_name(Work work) {
 
 /// One thing to time: a method at a view, on a number of threads.
 struct Task {
-  std::string method;  ///< "bvh8", "raster", "embree-fast-16"
+  std::string method;  ///< "bvh8", "bvh8-fast", "raster", "embree-fast-16"
   std::string target;  ///< the instruction set, where one is chosen
   Work work;
   bool exact;  ///< every answer must be the reference's
   /// Makes all that `run` needs, runs it once and counts the answers that are not the reference's: of
-  /// an exact method every bit counts, of a peer only the triangle and whether there is one.
+  /// an exact method every bit counts, of others only the triangle and whether there is one.
   std::function<std::size_t()> check;
   /// Does the work once; returns how many rays, pixels or triangles that was.
   std::function<std::size_t()> run;

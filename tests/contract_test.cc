@@ -164,6 +164,33 @@ TEST_SUITE("contract") {
     CHECK(frame.id == marked_frame().id);
   }
 
+  TEST_CASE("options are named in their order, and no quality changes an answer") {
+    const Camera camera = scene().camera(kWidth, kHeight);
+    Frame expected(kWidth, kHeight), frame(kWidth, kHeight);
+    cast(build(1), camera, expected);
+    for (const Quality quality : {Quality::Fast, Quality::Balanced, Quality::Best}) {
+      for (const int width : {2, 4, 8}) {
+        double last = 0.0;
+        const Bvh bvh(scene().mesh, {.quality = quality,
+                                     .width = width,
+                                     .threads = 1,
+                                     .arithmetic = Arithmetic::Exact,
+                                     .simd = Simd::Auto,
+                                     .first_id = 0,
+                                     .progress = [&](double share) {
+                                       last = share;
+                                       return true;
+                                     }});
+        cast(bvh, camera, frame);
+        CHECK(compare(frame, expected).equal());
+        CHECK(last > 0.9);
+      }
+    }
+    const BuildOptions defaults;
+    CHECK(defaults.quality == Quality::Balanced);
+    CHECK(defaults.arithmetic == Arithmetic::Exact);
+  }
+
   TEST_CASE("a copy shares its tree and outlives the original, and the mesh is not needed any more") {
     const Ray ray{{0.25f, 0.25f, -1.0f}, 0.0f, {0.0f, 0.0f, 1.0f}, INFINITY};
     TriangleMesh mesh{{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}};

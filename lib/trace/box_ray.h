@@ -53,6 +53,11 @@ struct BoxRay {
   static constexpr float kUnderflow = 0x1p-120f;
 
   BoxRay(const Ray& ray, float greatest);
+
+  float near_origin(int axis) const { return origin[axis]; }
+  float far_origin(int axis) const { return origin[axis]; }
+  float near_inverse(int axis) const { return inv_near[axis]; }
+  float far_inverse(int axis) const { return inv_far[axis]; }
 };
 
 /// The children of a node that the ray may meet, one bit each, by ExactBoxRay, with their near values.

@@ -10,6 +10,7 @@
 #include "base/simd_dispatch.h"
 #include "build/binned_sah.h"
 #include "build/mesh_check.h"
+#include "build/sweep_sah.h"
 #include "build/tree_statistics.h"
 #include "plumb/error.h"
 #include "trace/binary.h"
@@ -25,6 +26,7 @@ struct Bvh::Impl {
   using Structure = std::variant<detail::BinaryScene, detail::WideTree<4>, detail::WideTree<8>>;
 
   std::shared_ptr<const Structure> structure;  // shared by the same tree on several instruction sets
+  Arithmetic arithmetic = Arithmetic::Exact;
   detail::QueryTable queries{};
   Statistics statistics;
 
@@ -39,12 +41,23 @@ namespace {
 using detail::BinaryTree;
 
 // What a leaf and a node cost against each other, and how many triangles a test takes at once.
-detail::BinnedSahOptions build_options(int width, const BuildOptions& options) {
-  detail::BinnedSahOptions build;
-  build.threads = options.threads;
-  build.block = width == 2 ? 1 : width;
-  build.max_leaf = width == 2 ? 4 : width;
-  return build;
+void set_costs(int width, detail::SahOptions& sah) {
+  sah.block = width == 2 ? 1 : width;
+  sah.max_leaf = width == 2 ? 4 : width;
+}
+
+BinaryTree build_binary(MeshView mesh, int width, const BuildOptions& options) {
+  detail::Progress progress(options.progress, mesh.triangles.size());
+  if (options.quality == Quality::Best) {
+    detail::SweepSahOptions sweep;
+    set_costs(width, sweep);
+    return detail::build_sweep_sah(mesh, sweep, progress);
+  }
+  detail::BinnedSahOptions binned;
+  set_costs(width, binned);
+  binned.threads = options.threads;
+  if (options.quality == Quality::Fast) binned.bins = 8;
+  return detail::build_binned_sah(mesh, binned, progress);
 }
 
 Statistics statistics_of(const detail::BinaryScene& scene) {
@@ -59,9 +72,17 @@ Statistics statistics_of(const detail::WideTree<W>& tree) {
   return detail::tree_statistics(tree);
 }
 
-detail::QueryTable queries_for(int width, Simd simd) {
+detail::QueryTable queries_of(Arithmetic arithmetic, int width, Simd simd) {
   if (width == 2) return detail::binary_queries();
-  return width == 4 ? detail::wide4_queries(simd) : detail::wide8_queries(simd);
+  if (width == 4) return detail::wide4_queries(simd);
+  switch (arithmetic) {
+    case Arithmetic::Fast:
+      return detail::wide8_fast_queries(simd);
+    case Arithmetic::Watertight:
+      return detail::wide8_watertight_queries(simd);
+    default:
+      return detail::wide8_queries(simd);
+  }
 }
 
 Bvh::Impl::Structure make_structure(BinaryTree tree, MeshView mesh, int width, const BuildOptions& options) {
@@ -71,10 +92,8 @@ Bvh::Impl::Structure make_structure(BinaryTree tree, MeshView mesh, int width, c
 }
 
 void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& options) {
-  detail::Progress progress(options.progress, mesh.triangles.size());
-  BinaryTree tree = detail::build_binned_sah(mesh, build_options(width, options), progress);
+  BinaryTree tree = build_binary(mesh, width, options);
   const std::uint32_t unseen = tree.unseen;
-  impl.queries = queries_for(width, detail::resolve_simd(options.simd));
   impl.structure =
       std::make_shared<const Bvh::Impl::Structure>(make_structure(std::move(tree), mesh, width, options));
   impl.statistics = std::visit([](const auto& s) { return statistics_of(s); }, *impl.structure);
@@ -82,20 +101,41 @@ void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& option
   impl.statistics.unseen_triangles = unseen;
 }
 
+// Throws plumb::Error unless the enumerator, whose values go from 0 to `last`, is one.
+template <typename Enum>
+void check_enumerator(Enum value, Enum last, const char* name) {
+  if (value >= Enum{} && value <= last) return;
+  throw Error("plumb: BuildOptions::" + std::string(name) + " is " + std::to_string(static_cast<int>(value)) +
+              ", which is none of its enumerators");
+}
+
+// The width, or plumb::Error for options out of range.
+int checked_width(const BuildOptions& options) {
+  check_enumerator(options.quality, Quality::Best, "quality");
+  check_enumerator(options.arithmetic, Arithmetic::Exact, "arithmetic");
+  // Eight children are faster than four on AVX2 and AVX-512; without vector instructions four are.
+  const int width = options.width == 0 ? 8 : options.width;
+  if (width != 2 && width != 4 && width != 8) {
+    throw Error("plumb: BuildOptions::width is " + std::to_string(width) + "; it must be 0, 2, 4 or 8");
+  }
+  if (width != 8 && options.arithmetic != Arithmetic::Exact) {
+    throw Error("plumb: BuildOptions::width is " + std::to_string(width) +
+                "; for Arithmetic::Fast and Arithmetic::Watertight it must be 0 or 8");
+  }
+  detail::resolve_simd(options.simd);
+  return width;
+}
+
 }  // namespace
 
 Bvh::Bvh(MeshView mesh, const BuildOptions& options) {
   detail::check_mesh(mesh, options.first_id, "Bvh");
-  // Eight children are faster than four on AVX2 and AVX-512; without vector instructions four are.
-  const int width = options.width == 0 ? 8 : options.width;
-  if (width != 2 && width != 4 && width != 8) {
-    throw Error("plumb: BuildOptions::width is " + std::to_string(options.width) +
-                "; it must be 0, 2, 4 or 8");
-  }
-  detail::resolve_simd(options.simd);  // throws before the work, not after
+  const int width = checked_width(options);  // throws before the work, not after
   const auto start = std::chrono::steady_clock::now();
   auto impl = std::make_shared<Impl>();
   detail::with_default_fp_mode([&] { build(*impl, mesh, width, options); });
+  impl->arithmetic = options.arithmetic;
+  impl->queries = queries_of(options.arithmetic, width, detail::resolve_simd(options.simd));
   impl->statistics.build_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   impl_ = std::move(impl);
@@ -115,7 +155,7 @@ void Bvh::any(std::span<const Ray> rays, std::span<bool> hits) const {
 
 Bvh Bvh::with_simd(Simd simd) const {
   auto impl = std::make_shared<Impl>(*impl_);
-  impl->queries = queries_for(impl_->statistics.width, detail::resolve_simd(simd));
+  impl->queries = queries_of(impl_->arithmetic, impl_->statistics.width, detail::resolve_simd(simd));
   Bvh result(*this);
   result.impl_ = std::move(impl);
   return result;

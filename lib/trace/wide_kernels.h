@@ -9,4 +9,8 @@ namespace plumb::detail {
 QueryTable wide4_queries(Simd simd);
 QueryTable wide8_queries(Simd simd);
 
+/// The same in the lesser arithmetics, which one width is enough for.
+QueryTable wide8_fast_queries(Simd simd);
+QueryTable wide8_watertight_queries(Simd simd);
+
 }  // namespace plumb::detail

@@ -6,7 +6,8 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "trace/traverse-inl.h"
+#include "trace/box_ray.h"
+#include "trace/box_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {

@@ -13,13 +13,40 @@
 
 namespace plumb {
 
+/// How much time a build takes for how fast a tree. With Arithmetic::Exact the answers are the same.
+enum class Quality { Fast, Balanced, Best };
+
+/// How a ray is tested against boxes and triangles. Trees, their layouts and the traversal are the same for
+/// all three. Each returns the same bits on every instruction set.
+enum class Arithmetic {
+  /// Plain float, as most ray tracers: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray-Triangle
+  /// Intersection". Promises nothing: at edges and vertices a ray may slip through a closed surface or
+  /// hit two triangles, a box and all in it may be lost, `t` carries the rounding of every step, and of
+  /// surfaces close together the wrong one may win. Such a ray's answer may depend on the tree, and its
+  /// closest hit need not be the first of all.
+  Fast,
+  /// Float without cracks: Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection". A ray from
+  /// inside a closed surface hits it, if it starts farther from it than coordinates are rounded, however
+  /// exactly it aims at an edge or a vertex. There it may hit more than one triangle. `t` is as inexact
+  /// as in Fast, and near ties are decided as in Fast; a triangle that the ray passes by at less than the
+  /// rounding may count as hit.
+  Watertight,
+  /// What docs/visibility.md defines, bit for bit.
+  Exact,
+};
+
 /// How a Bvh is built and queried.
 struct BuildOptions {
-  /// Children per node: 2 (plain scalar code, the reference), 4 or 8; 0 picks the best for `simd`.
+  /// Build time against ray speed.
+  Quality quality = Quality::Balanced;
+  /// Children per node: 2 (plain scalar code, the reference), 4 or 8; 0 picks the best for `simd`. Only
+  /// 8 for arithmetics other than Exact.
   int width = 0;
   /// Threads for the build; 0 takes all that the affinity mask allows, and more are never used.
   /// The tree does not depend on it.
   int threads = 0;
+  /// What the queries promise.
+  Arithmetic arithmetic = Arithmetic::Exact;
   /// Instruction set of the queries; must be Auto or one of simd_targets(). Width 2 is scalar whatever it
   /// says.
   Simd simd = Simd::Auto;
@@ -53,9 +80,10 @@ struct Statistics {
 
 /// A bounding volume hierarchy over a copy of the mesh.
 ///
-/// Answers what docs/visibility.md defines, bit for bit, whatever the width, the instruction set and the
-/// caller's floating-point mode. Immutable: const calls from many threads are safe, and copies share
-/// the tree. One that was moved from can only be assigned to.
+/// Answers what docs/visibility.md defines, bit for bit, whatever the width, the quality, the instruction
+/// set and the caller's floating-point mode; less where a lesser Arithmetic was asked for. Immutable:
+/// const calls from many threads are safe, and copies share the tree. One that was moved from can only be
+/// assigned to.
 ///
 /// Built by the surface area heuristic over bins (Wald 2007, "On fast Construction of SAH-based Bounding
 /// Volume Hierarchies"), then collapsed to wide nodes (Wald, Benthin and Boulos 2008, "Getting Rid of

@@ -1,0 +1,107 @@
+// The exact arithmetic: boxes are culled conservatively, a leaf's triangles are tested W at once in float
+// with a proven bound, and lanes that the float stage leaves open are decided one at a time in double
+// or by expansions. Included once per Highway target.
+
+#if defined(PLUMB_TRACE_EXACT_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_TRACE_EXACT_TESTS_INL_H_
+#undef PLUMB_TRACE_EXACT_TESTS_INL_H_
+#else
+#define PLUMB_TRACE_EXACT_TESTS_INL_H_
+#endif
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "base/mask_bits-inl.h"
+#include "exact/filter-inl.h"
+#include "exact/filter_ray.h"
+#include "exact/intersect.h"
+#include "hwy/highway.h"
+#include "trace/box_ray.h"
+#include "trace/box_test-inl.h"
+#include "trace/traverse-inl.h"
+#include "wide/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <int W>
+HWY_INLINE Triangle TriangleOf(const TriangleBlock<W>& block, size_t lane) {
+  const auto corner = [&](int v) {
+    return glm::vec3(block.vertex[v][0][lane], block.vertex[v][1][lane], block.vertex[v][2][lane]);
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+template <int W>
+class ExactTests {
+ public:
+  ExactTests(const WideTree<W>& tree, const Ray& ray, float limit)
+      : ray_(ray), box_ray_(ray, tree.greatest), filter_(ray, tree.greatest) {
+    if (!box_ray_.in_range) exact_ray_.emplace(ray);
+    filter_.set_limit(limit);
+  }
+
+  HWY_INLINE std::uint32_t boxes(const WideNode<W>& node, float limit, float* near) const {
+    return HWY_LIKELY(box_ray_.in_range) ? TestBoxes<W>(node, box_ray_, limit, near)
+                                         : meet_children<W>(node, *exact_ray_, limit, near);
+  }
+
+  template <class Query>
+  HWY_INLINE bool leaf(const TriangleBlock<W>* block, std::uint32_t count, Query& query) {
+    const hn::CappedTag<float, W> d;
+    for (;; ++block) {
+      std::uint32_t possible_bits = 0;
+      std::uint32_t certain_bits = 0;
+      for (size_t lane = 0; lane < static_cast<size_t>(W); lane += hn::Lanes(d)) {
+        hn::Mask<decltype(d)> possible;
+        hn::Mask<decltype(d)> certain;
+        FilterTriangles(d, filter_, *block, lane, possible, certain);
+        possible_bits |= MaskBits(d, possible) << lane;
+        certain_bits |= MaskBits(d, certain) << lane;
+      }
+      if (count < static_cast<std::uint32_t>(W)) possible_bits &= (1u << count) - 1u;
+      for (; possible_bits != 0; possible_bits &= possible_bits - 1) {
+        const auto lane = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(possible_bits));
+        const Triangle triangle = TriangleOf(*block, lane);
+        float t = 0.0f;
+        if ((certain_bits >> lane & 1u) != 0) {
+          // May be infinite, which counts on no ray: a finite t wins everywhere else, and tmax = inf is
+          // excluded by the definition.
+          t = line_depth(ray_.origin, ray_.direction, triangle);
+          if (!(t < std::numeric_limits<float>::infinity())) continue;
+        } else if (!line_hit(ray_.origin, ray_.direction, triangle, t)) {
+          continue;
+        }
+        if (query.take(t, block->id[lane])) return true;
+      }
+      if (count <= static_cast<std::uint32_t>(W)) break;
+      count -= static_cast<std::uint32_t>(W);
+    }
+    filter_.set_limit(query.limit());
+    return false;
+  }
+
+ private:
+  const Ray& ray_;
+  BoxRay box_ray_;
+  std::optional<ExactBoxRay> exact_ray_;
+  FilterRay filter_;
+};
+
+template <int W>
+struct ExactTraversal {
+  template <class Query>
+  static void run(const WideTree<W>& tree, const Ray& ray, Query& query) {
+    ExactTests<W> tests(tree, ray, query.limit());
+    Traverse(tree, tests, query);
+  }
+};
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

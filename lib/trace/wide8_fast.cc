@@ -1,0 +1,29 @@
+// The queries over 8-wide trees in the fast arithmetic, compiled once per Highway target.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trace/wide8_fast.cc"
+#include "hwy/foreach_target.h"
+// After foreach_target.
+#include "hwy/highway.h"
+#include "trace/fast_tests-inl.h"
+#include "trace/wide_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+QueryTable Wide8FastQueries() { return make_query_table<WideTree<8>, FastTraversal<8>>(); }
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "base/simd_dispatch.h"
+
+namespace plumb::detail {
+
+HWY_EXPORT(Wide8FastQueries);
+
+QueryTable wide8_fast_queries(Simd simd) { return PLUMB_DISPATCH(Wide8FastQueries, simd)(); }
+
+}  // namespace plumb::detail
+#endif
