@@ -17,7 +17,8 @@ run(${CMAKE_COMMAND} --install ${PLUMB_BUILD} --prefix ${prefix})
 file(RENAME ${prefix} ${WORK}/moved)
 set(prefix ${WORK}/moved)
 
-foreach(installed bin/plumb include/plumb/plumb.h include/plumb/raster.h include/plumb/version.h)
+foreach(installed bin/plumb share/bash-completion/completions/plumb
+    include/plumb/plumb.h include/plumb/raster.h include/plumb/version.h)
   if(NOT EXISTS ${prefix}/${installed})
     message(FATAL_ERROR "${installed} was not installed")
   endif()

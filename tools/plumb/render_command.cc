@@ -66,6 +66,7 @@ void add_render_command(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("render", "Make one frame by one method and write it as OpenEXR");
   const auto options = std::make_shared<RenderOptions>();
   add_frame_options(*command, options->frame);
+  command->get_option("--simd")->description("instruction set: auto (the best) or a name");
   command->add_option("--method", options->method, "how to make it")->type_name("NAME")->required();
   command->add_option("--out", options->out, "the file to write")->type_name("FILE.exr")->required();
   command->footer(render_help());
