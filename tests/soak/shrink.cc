@@ -135,6 +135,7 @@ Shrunk shrink(const Instance& instance, const Difference& difference, std::span<
   simplify_numbers(shrinker);
   leave_out<glm::uvec3>(shrinker, triangles_of);
   separate(shrinker);
+  simplify_numbers(shrinker);  // what one number allows another may depend on
   Shrunk result{shrinker.best(), shrinker.difference()};
   result.difference.subject = difference.subject;
   return result;
