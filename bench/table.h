@@ -26,8 +26,8 @@ struct Row {
 };
 
 /// Checks all tasks, then times them, those of one kind of work in turns. Throws plumb::Error when an exact
-/// method's answers are not the reference's: then nothing is timed. With `after_check` that is for the caller to
-/// judge: it is called after each check, when the task's answers are still in the workload.
+/// method's answers are not the reference's: then nothing is timed. With `after_check` that is for the caller
+/// to judge: it is called after each check, when the task's answers are still in the workload.
 std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads,
                          const std::function<void(const Task&)>& after_check = nullptr);
 

@@ -74,7 +74,8 @@ Plot plot_of(const SpeedScene& scene, Work work, const char* rays) {
   for (const SpeedRow& row : scene.rows) {
     const double speed = row.row.cells[static_cast<std::size_t>(work)].figure;
     const Errors& errors = work == Work::Camera ? row.camera : row.diffuse;
-    if (speed > 0.0 && std::isfinite(speed)) plot.points.push_back({name_of(row), speed, errors.wrong_per_million(), kind_of(row)});
+    if (speed > 0.0 && std::isfinite(speed))
+      plot.points.push_back({name_of(row), speed, errors.wrong_per_million(), kind_of(row)});
   }
   return plot;
 }
