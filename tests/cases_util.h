@@ -27,15 +27,6 @@ struct Share {
   double value() const { return of == 0 ? 0.0 : static_cast<double>(having) / static_cast<double>(of); }
 };
 
-inline std::vector<Ray> pixel_rays(const Instance& instance) {
-  std::vector<Ray> rays;
-  if (!instance.camera) return rays;
-  for (int y = 0; y < instance.camera->height; ++y) {
-    for (int x = 0; x < instance.camera->width; ++x) rays.push_back(instance.camera->ray(x, y));
-  }
-  return rays;
-}
-
 /// Calls `visit(instance)` for the first instances of a case.
 template <typename Visit>
 void each_instance(std::string_view name, std::uint64_t count, const Visit& visit) {

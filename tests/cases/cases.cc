@@ -47,4 +47,13 @@ Instance make_instance(const Case& hard_case, std::uint64_t seed, std::uint64_t 
   return instance;
 }
 
+std::vector<Ray> pixel_rays(const Instance& instance) {
+  std::vector<Ray> rays;
+  if (!instance.camera) return rays;
+  for (int y = 0; y < instance.camera->height; ++y) {
+    for (int x = 0; x < instance.camera->width; ++x) rays.push_back(instance.camera->ray(x, y));
+  }
+  return rays;
+}
+
 }  // namespace plumb::cases

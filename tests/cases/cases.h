@@ -47,4 +47,7 @@ const Case* find_case(std::string_view name);
 /// floating-point mode.
 Instance make_instance(const Case& hard_case, std::uint64_t seed, std::uint64_t index);
 
+/// The rays of the instance's pixels, row by row; none without a camera.
+std::vector<Ray> pixel_rays(const Instance& instance);
+
 }  // namespace plumb::cases

@@ -68,6 +68,21 @@ TEST_CASE("a small part of docs/hard-cases.md is what it was on any machine, and
   CHECK(made.str() == read_text(PLUMB_TESTS_DIR "/tool/hard_cases_expected.txt"));
 }
 
+TEST_CASE(
+    "peers are asked properly: where nothing ties and nothing is extreme they are nearly always right") {
+  const ToolRun run =
+      run_tool("report --hard --instances 30 --cases equal-boxes,one-triangle,grazing --json");
+  REQUIRE(run.status == 0);
+  for (const json& c : json::parse(run.out)["cases"]) {
+    for (const json& answer : c["pixels"]["answers"]) {
+      CAPTURE(c["name"]);
+      CAPTURE(answer["method"]);
+      CHECK(answer["wrong_ids"].get<double>() <= 0.03 * answer["asked"].get<double>());
+      CHECK(answer["worst_ulps"] < 10'000);
+    }
+  }
+}
+
 TEST_CASE("docs/hard-cases.md has every case as it is now, and no difference of plumb's") {
   const std::string document = read_text(PLUMB_DOCS_DIR "/hard-cases.md");
   for (const cases::Case& c : cases::all_cases()) {

@@ -38,9 +38,6 @@ std::vector<Answerer> embree_answerers();
 /// Mesa's llvmpipe; empty in a build or on a machine without it.
 std::vector<Answerer> llvmpipe_answerers();
 
-/// The rays of the instance's pixels, row by row; none without a camera.
-std::vector<Ray> pixel_rays(const cases::Instance& instance);
-
 /// A frame's pixels as answers.
 std::vector<std::optional<Hit>> to_answers(const Frame& frame);
 

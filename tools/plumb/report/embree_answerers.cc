@@ -23,7 +23,7 @@ std::vector<std::optional<Hit>> closest(const peers::EmbreeScene& scene, std::sp
 }
 
 Answers answer(const peers::EmbreeDevice& device, bool robust, const cases::Instance& instance) {
-  const std::vector<Ray> pixels = pixel_rays(instance);
+  const std::vector<Ray> pixels = cases::pixel_rays(instance);
   // While Embree waits for its own tasks, no other of ours may start: the oracle wants the default
   // floating-point mode.
   return tbb::this_task_arena::isolate([&] {

@@ -40,15 +40,6 @@ std::vector<Answerer> plumb_answerers() {
   return answerers;
 }
 
-std::vector<Ray> pixel_rays(const cases::Instance& instance) {
-  std::vector<Ray> rays;
-  if (!instance.camera) return rays;
-  for (int y = 0; y < instance.camera->height; ++y) {
-    for (int x = 0; x < instance.camera->width; ++x) rays.push_back(instance.camera->ray(x, y));
-  }
-  return rays;
-}
-
 std::vector<std::optional<Hit>> to_answers(const Frame& frame) {
   std::vector<std::optional<Hit>> answers;
   for (std::size_t i = 0; i < frame.id.size(); ++i) answers.emplace_back(Hit{frame.depth[i], frame.id[i]});
