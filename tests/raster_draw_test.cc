@@ -280,7 +280,9 @@ TEST_SUITE("raster: callers") {
     for (glm::dvec3* v : {&small_camera.corner, &small_camera.du, &small_camera.dv}) *v *= 0x1p-131;
     const std::vector<std::pair<const TriangleMesh*, Camera>> views = {{&mesh, camera_of(50, 30)},
                                                                        {&small, small_camera}};
-    for (const auto& [scene_mesh, camera] : views) {
+    for (const auto& view : views) {
+      const auto& scene_mesh = view.first;
+      const Camera& camera = view.second;
       const Frame expected = brute_force_frame(*scene_mesh, camera);
       CHECK(std::count(expected.id.begin(), expected.id.end(), kNone) < 1200);
       for (const hard::NamedFpMode& mode : hard::kFpModes) {
