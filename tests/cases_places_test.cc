@@ -36,7 +36,7 @@ bool starts_in_plane(const Instance& instance, const Ray& ray) {
 
 TEST_CASE("cases: rays go exactly through edges and vertices") {
   CHECK(ray_share("shared-edge", through_edge) == 1.0);
-  CHECK(ray_share("t-junction", through_edge) > 0.9);
+  CHECK(ray_share("t-junction", through_edge) > 0.8);
   CHECK(ray_share("one-zero-component", through_edge) > 0.95);
   CHECK(pixel_share("edge-pixels", through_edge) > 0.7);
   CHECK(ray_share("non-manifold-fan", [](const Instance& instance, const Ray& ray) {

@@ -105,7 +105,8 @@ TEST_CASE("cases: slivers, specks and strips are as thin as they say") {
   };
   CHECK(triangle_share("sliver", thinner_than(1e3)) > 0.95);
   CHECK(triangle_share("sliver", thinner_than(1e6)) > 0.2);
-  CHECK(triangle_share("sliver", thinner_than(1e7)) > 0.01);
+  // A share of a hundredth shows only in many instances.
+  if (hard::kEffortDivisor == 1) CHECK(triangle_share("sliver", thinner_than(1e7)) > 0.01);
   CHECK(ray_share("sliver", is_hit) > 0.5);
   CHECK(triangle_share("thin-diagonal", thinner_than(1e3)) > 0.8);
   CHECK(pixel_share("thin-diagonal", is_hit) > 0.05);
