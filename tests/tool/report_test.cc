@@ -73,7 +73,8 @@ TEST_CASE(
   const ToolRun run =
       run_tool("report --hard --instances 30 --cases equal-boxes,one-triangle,grazing --json");
   REQUIRE(run.status == 0);
-  for (const json& c : json::parse(run.out)["cases"]) {
+  const json whole = json::parse(run.out);
+  for (const json& c : whole["cases"]) {
     for (const json& answer : c["pixels"]["answers"]) {
       CAPTURE(c["name"]);
       CAPTURE(answer["method"]);
