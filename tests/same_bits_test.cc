@@ -56,11 +56,11 @@ Row row_of(const Entry& entry) {
 void check(const Entry& entry, const std::string& how, const std::string& what, std::uint64_t Row::*hash,
            std::uint64_t got) {
   const std::uint64_t expected = row_of(entry).*hash;
-  if (got == expected) return;
-  FAIL_CHECK("\"" << entry.name << "\", " << what << ", by " << how << ": expected " << hex(expected)
-                  << ", got " << hex(got)
-                  << "\n  Was the scene changed on purpose? The table anew: "
-                     "PLUMB_WRITE_SAME_BITS=tests/same_bits/table.inc build/gcc/tests/same_bits_test");
+  CHECK_MESSAGE(got == expected,
+                "\"" << entry.name << "\", " << what << ", by " << how << ": expected " << hex(expected)
+                     << ", got " << hex(got)
+                     << "\nWas the scene changed on purpose? The table anew: "
+                        "PLUMB_WRITE_SAME_BITS=tests/same_bits/table.inc build/gcc/tests/same_bits_test");
 }
 
 // ---- What answers.
