@@ -56,41 +56,64 @@ Row row_of(const Entry& entry) {
 void check(const Entry& entry, const std::string& how, const std::string& what, std::uint64_t Row::*hash,
            std::uint64_t got) {
   const std::uint64_t expected = row_of(entry).*hash;
-  if (got == expected) return;
-  FAIL_CHECK("\"" << entry.name << "\", " << what << ", by " << how << ": expected " << hex(expected)
-                  << ", got " << hex(got)
-                  << "\n  Was the scene changed on purpose? The table anew: "
-                     "PLUMB_WRITE_SAME_BITS=tests/same_bits/table.inc build/gcc/tests/same_bits_test");
+  CHECK_MESSAGE(got == expected,
+                "\"" << entry.name << "\", " << what << ", by " << how << ": expected " << hex(expected)
+                     << ", got " << hex(got)
+                     << "\nWas the scene changed on purpose? The table anew: "
+                        "PLUMB_WRITE_SAME_BITS=tests/same_bits/table.inc build/gcc/tests/same_bits_test");
 }
 
 // ---- What answers.
 
-Bvh tree(const Part& part, int width, Simd simd, int threads = 1) {
+struct Method {
+  int width;
+  Simd simd;
+  Quality quality = Quality::Balanced;
+
+  std::string name() const {
+    static constexpr const char* kQualities[] = {"fast", "balanced", "best"};
+    return "bvh" + std::to_string(width) + " " + std::string(simd_name(simd)) + ", quality " +
+           kQualities[static_cast<int>(quality)];
+  }
+};
+
+Bvh tree(const Part& part, const Method& method, int threads = 1) {
   BuildOptions options;
-  options.width = width;
-  options.simd = simd;
+  options.quality = method.quality;
+  options.width = method.width;
+  options.simd = method.simd;
   options.threads = threads;
   return Bvh(part.mesh, options);
 }
 
-struct Method {
-  int width;
-  Simd simd;
-
-  std::string name() const { return "bvh" + std::to_string(width) + " " + std::string(simd_name(simd)); }
-};
-
+// One in all for width 2, which is scalar code; qualities by turns.
 std::vector<Method> trees() {
-  std::vector<Method> result{{2, simd_targets().back()}};  // scalar code, whatever the target
+  std::vector<Method> result{{2, simd_targets().back()}};
   for (const int width : {4, 8}) {
-    for (const Simd simd : simd_targets()) result.push_back({width, simd});
+    for (const Simd simd : simd_targets()) {
+      result.push_back({width, simd, static_cast<Quality>(result.size() % 3)});
+    }
   }
   return result;
 }
 
+// The answers of Arithmetic::Fast and Watertight may depend on the tree, so it is one tree.
+std::uint64_t hash_of_inexact(const Entry& entry, Arithmetic arithmetic, Simd simd, Asking asking = {}) {
+  asking.surfaces = false;
+  const auto make = [&](const Part& part) {
+    BuildOptions options;
+    options.width = 8;
+    options.threads = asking.threads;
+    options.simd = simd;
+    options.arithmetic = arithmetic;
+    return Bvh(part.mesh, options);
+  };
+  return hash_of_rays(entry, make, asking);
+}
+
 Frame cast_frame(const Part& part, const Camera& camera, const Method& method, int threads = 1) {
   Frame frame(camera.width, camera.height);
-  cast(tree(part, method.width, method.simd, threads), camera, frame, {.threads = threads});
+  cast(tree(part, method, threads), camera, frame, {.threads = threads});
   return frame;
 }
 
@@ -152,8 +175,10 @@ void write_table(std::ostream& out) {
       cast(BruteForce(part.mesh), camera, frame);
       return frame;
     });
+    const Simd simd = simd_targets().front();
     out << "{\"" << entry.name << "\", " << hex(hash_of_inputs(entry)) << ", " << hex(rays) << ", "
-        << hex(frames) << "},\n";
+        << hex(frames) << ", " << hex(hash_of_inexact(entry, Arithmetic::Fast, simd)) << ", "
+        << hex(hash_of_inexact(entry, Arithmetic::Watertight, simd)) << "},\n";
   }
 }
 
@@ -192,8 +217,22 @@ TEST_SUITE("same bits") {
     each_entry([](const Entry& entry, std::size_t) {
       check(entry, "brute force", "rays", &Row::rays, hash_of_rays(entry, brute));
       for (const Method& method : trees()) {
-        const auto make = [&](const Part& part) { return tree(part, method.width, method.simd); };
+        const auto make = [&](const Part& part) { return tree(part, method); };
         check(entry, method.name(), "rays", &Row::rays, hash_of_rays(entry, make));
+      }
+    });
+  }
+
+  TEST_CASE("rays: by the arithmetics that are not exact, on every instruction set") {
+    each_entry([](const Entry& entry, std::size_t turn) {
+      for (const Simd simd : simd_targets()) {
+        const int threads = static_cast<int>(turn++ % 4) + 1;
+        const Asking asking{turn % 3 * 5, turn % 2 == 0 ? &shuffled : nullptr, threads};
+        const std::string how = std::string(simd_name(simd)) + " on " + std::to_string(threads) + " threads";
+        check(entry, "fast " + how, "rays", &Row::fast,
+              hash_of_inexact(entry, Arithmetic::Fast, simd, asking));
+        check(entry, "watertight " + how, "rays", &Row::watertight,
+              hash_of_inexact(entry, Arithmetic::Watertight, simd, asking));
       }
     });
   }
@@ -222,7 +261,7 @@ TEST_SUITE("same bits") {
       for (const std::size_t batch : kBatches) {
         for (const auto order : {&reversed, &shuffled}) {
           const Method& method = methods[turn++ % methods.size()];
-          const auto make = [&](const Part& part) { return tree(part, method.width, method.simd); };
+          const auto make = [&](const Part& part) { return tree(part, method); };
           const Asking asking{batch, order, 1};
           check(entry, method.name() + " in spans of " + std::to_string(batch), "rays", &Row::rays,
                 hash_of_rays(entry, make, asking));
@@ -255,7 +294,7 @@ TEST_SUITE("same bits") {
         const Method& method = methods[turn % methods.size()];
         const Simd simd = targets[turn % targets.size()];
         const std::string with = " on " + std::to_string(threads) + " threads";
-        const auto make = [&](const Part& part) { return tree(part, method.width, method.simd, threads); };
+        const auto make = [&](const Part& part) { return tree(part, method, threads); };
         check(entry, method.name() + with, "rays", &Row::rays,
               hash_of_rays(entry, make, {turn % 2 * 5, nullptr, threads}));
         // A few of both are enough for frames.
@@ -279,9 +318,9 @@ TEST_SUITE("same bits") {
       for (const hard::NamedFpMode& mode : hard::kFpModes) {
         const Method& method = methods[turn % methods.size()];
         const Simd simd = targets[turn++ % targets.size()];
-        std::uint64_t rays = 0, cast = 0, drawn = 0;
+        std::uint64_t rays = 0, cast = 0, drawn = 0, fast = 0, watertight = 0;
         hard::under_mode(mode.bits, [&] {
-          rays = hash_of_rays(entry, [&](const Part& part) { return tree(part, method.width, method.simd); });
+          rays = hash_of_rays(entry, [&](const Part& part) { return tree(part, method); });
           cast = hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
             return cast_frame(part, camera, method);
           });
@@ -289,7 +328,13 @@ TEST_SUITE("same bits") {
             return raster_frame(part, camera, simd);
           });
         });
+        hard::under_mode(mode.bits, [&] {
+          fast = hash_of_inexact(entry, Arithmetic::Fast, simd);
+          watertight = hash_of_inexact(entry, Arithmetic::Watertight, simd);
+        });
         const std::string with = std::string(" with ") + mode.name;
+        check(entry, "fast" + with, "rays", &Row::fast, fast);
+        check(entry, "watertight" + with, "rays", &Row::watertight, watertight);
         check(entry, method.name() + with, "rays", &Row::rays, rays);
         check(entry, method.name() + with, "frames", &Row::frames, cast);
         check(entry, "raster " + std::string(simd_name(simd)) + with, "frames", &Row::frames, drawn);

@@ -23,8 +23,8 @@ inline FpMode fp_mode() { return _mm_getcsr(); }
 inline void set_fp_mode(FpMode mode) { _mm_setcsr(mode); }
 #elif defined(__aarch64__)
 using FpMode = std::uint64_t;
-inline constexpr FpMode kFpModeBits = (std::uint64_t{1} << 24) | (std::uint64_t{3} << 22) |
-                                      (std::uint64_t{1} << 19);  // FZ, RMode, FZ16 of FPCR
+// FZ, RMode, FZ16 of FPCR; and of FEAT_AFP, for those who run x86 code, FIZ (flush inputs) and AH.
+inline constexpr FpMode kFpModeBits = (1u << 24) | (3u << 22) | (1u << 19) | 3u;
 inline FpMode fp_mode() {
   FpMode mode;
   asm volatile("mrs %0, fpcr" : "=r"(mode));

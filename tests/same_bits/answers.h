@@ -25,7 +25,7 @@ struct Answers {
   std::vector<Hit> closest;
   std::vector<char> any;
   std::vector<std::vector<Hit>> all;
-  std::vector<Surface> surface;  ///< of the closest hit; meaningless where there is none
+  std::vector<Surface> surface;  ///< of the closest hit; 0 where there is none or none is asked for
 };
 
 /// How rays are asked.
@@ -33,6 +33,7 @@ struct Asking {
   std::size_t batch = 0;  ///< rays in a span, or 0: one by one, without spans
   std::vector<std::size_t> (*order)(std::size_t count) = nullptr;  ///< null: as they are
   int threads = 1;                                                 ///< that ask the same structure at once
+  bool surfaces = true;                                            ///< of each closest hit, which is exact
 };
 
 inline void add(hard::Hash& hash, const Hit& hit) {
@@ -58,8 +59,9 @@ inline void add(hard::Hash& hash, const Answers& answers) {
 
 /// Asks for the rays whose indices are in `which`, in that order.
 template <typename Structure>
-void ask(const Structure& structure, const Part& part, std::span<const std::size_t> which, std::size_t batch,
-         Answers& answers) {
+void ask(const Structure& structure, const Part& part, std::span<const std::size_t> which,
+         const Asking& asking, Answers& answers) {
+  const std::size_t batch = asking.batch;
   std::vector<Ray> rays;
   for (const std::size_t i : which) rays.push_back(part.rays[i]);
   std::vector<Hit> closest(rays.size());
@@ -81,7 +83,8 @@ void ask(const Structure& structure, const Part& part, std::span<const std::size
     answers.closest[i] = closest[k];
     answers.any[i] = any[k] ? 1 : 0;
     structure.all(rays[k], answers.all[i]);
-    if (closest[k].id != kNone) answers.surface[i] = surface(part.mesh, rays[k], closest[k]);
+    if (asking.surfaces && closest[k].id != kNone)
+      answers.surface[i] = surface(part.mesh, rays[k], closest[k]);
   }
 }
 
@@ -93,7 +96,7 @@ Answers ask(const Structure& structure, const Part& part, const Asking& asking) 
   if (asking.order != nullptr) order = asking.order(count);
   Answers answers(count);
   if (asking.threads == 1) {
-    ask(structure, part, order, asking.batch, answers);
+    ask(structure, part, order, asking, answers);
     return answers;
   }
   std::vector<std::thread> threads;
@@ -101,7 +104,7 @@ Answers ask(const Structure& structure, const Part& part, const Asking& asking) 
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t begin = k * count / n, end = (k + 1) * count / n;
     threads.emplace_back([&, begin, end] {
-      ask(structure, part, std::span(order).subspan(begin, end - begin), asking.batch, answers);
+      ask(structure, part, std::span(order).subspan(begin, end - begin), asking, answers);
     });
   }
   for (std::thread& thread : threads) thread.join();

@@ -12,7 +12,7 @@ namespace plumb {
 /// Where a ray meets a triangle with the vertices v0, v1, v2, for shading and the like.
 ///
 /// Single precision, no further off than each member says, however far the ray's origin, however thin the
-/// triangle and whatever the scale.
+/// triangle and whatever the scale. The same bits on every machine.
 struct Surface {
   /// Barycentric weight of v1, 0 to 1, off by less than one unit in its last place. The weight of v0 is
   /// the rest, 1 - u - v, so what the vertices hold is (1 - u - v) * a0 + u * a1 + v * a2 here.
