@@ -35,9 +35,10 @@ constexpr Entry kEntries[] = {
 };
 
 std::int64_t usable_targets() {
-  // The fallback without vector instructions runs everywhere, though Highway lists it only where it
-  // is the baseline.
-  return HWY_TARGETS & (hwy::SupportedTargets() | HWY_SCALAR | HWY_EMU128);
+  // Asked once: it executes CPUID, which a virtual machine traps, and every tree asks. The fallback
+  // without vector instructions runs everywhere, though Highway lists it only where it is the baseline.
+  static const std::int64_t usable = HWY_TARGETS & (hwy::SupportedTargets() | HWY_SCALAR | HWY_EMU128);
+  return usable;
 }
 
 }  // namespace
