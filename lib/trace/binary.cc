@@ -21,6 +21,7 @@ struct BinaryTraversal {
     const auto push_if_met = [&](std::uint32_t index) {
       const Box& box = nodes[index].box;
       Entry entry{0.0f, index};
+      query.count_volumes(1);
       if (box_ray.meets(&box.lo.x, &box.hi.x, query.limit(), entry.near)) stack[size++] = entry;
     };
     if (!nodes.empty()) push_if_met(0);
@@ -44,6 +45,7 @@ struct BinaryTraversal {
 
   template <typename Query>
   static bool test_leaf(const BinaryScene& scene, const BinaryNode& node, const Ray& ray, Query& query) {
+    query.count_triangles(node.count);
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       float t = 0.0f;
       if (line_hit(ray.origin, ray.direction, scene.triangles[i], t) && query.take(t, scene.ids[i]))
@@ -69,6 +71,6 @@ BinaryScene make_binary_scene(BinaryTree tree, MeshView mesh, std::uint32_t firs
   return scene;
 }
 
-QueryTable binary_queries() { return make_query_table<BinaryScene, BinaryTraversal>(); }
+QueryTable binary_queries(Simd) { return make_query_table<BinaryScene, BinaryTraversal>(); }
 
 }  // namespace plumb::detail

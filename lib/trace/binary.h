@@ -6,6 +6,7 @@
 #include "build/binary_tree.h"
 #include "exact/intersect.h"
 #include "plumb/mesh.h"
+#include "plumb/simd.h"
 #include "trace/query.h"
 
 namespace plumb::detail {
@@ -19,7 +20,7 @@ struct BinaryScene {
 
 BinaryScene make_binary_scene(BinaryTree tree, MeshView mesh, std::uint32_t first_id);
 
-/// The queries over a BinaryScene.
-QueryTable binary_queries();
+/// The queries over a BinaryScene, in scalar code.
+QueryTable binary_queries(Simd);
 
 }  // namespace plumb::detail

@@ -1,13 +1,13 @@
 #include "plumb/brute_force.h"
 
-#include <string>
+#include <memory>
+#include <utility>
+#include <vector>
 
-#include "base/fp_mode.h"
 #include "build/mesh_check.h"
 #include "exact/intersect.h"
-#include "plumb/error.h"
 #include "trace/query.h"
-#include "trace/span_calls.h"
+#include "trace/structure_data.h"
 
 namespace plumb {
 namespace {
@@ -22,6 +22,7 @@ struct Triangles {
 struct BruteTraversal {
   template <typename Query>
   static void run(const Triangles& scene, const Ray& ray, Query& query) {
+    query.count_triangles(scene.triangle.size());
     for (std::size_t i = 0; i < scene.triangle.size(); ++i) {
       float t = 0.0f;
       if (detail::line_hit(ray.origin, ray.direction, scene.triangle[i], t) && query.take(t, scene.id[i]))
@@ -30,41 +31,41 @@ struct BruteTraversal {
   }
 };
 
-}  // namespace
-
-struct BruteForce::Impl {
-  Triangles triangles;
-  detail::QueryTable queries;
-};
-
-BruteForce::BruteForce(MeshView mesh, std::uint32_t first_id) {
-  detail::check_mesh(mesh, first_id, "BruteForce");
-  auto impl = std::make_shared<Impl>();
+Triangles copy_finite(MeshView mesh, std::uint32_t first_id) {
+  Triangles result;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& corners = mesh.triangles[i];
     const Triangle triangle{mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]};
     if (!detail::triangle_is_finite(triangle)) continue;
-    impl->triangles.triangle.push_back(triangle);
-    impl->triangles.id.push_back(first_id + static_cast<std::uint32_t>(i));
+    result.triangle.push_back(triangle);
+    result.id.push_back(first_id + static_cast<std::uint32_t>(i));
   }
-  impl->queries = detail::make_query_table<Triangles, BruteTraversal>();
-  impl_ = std::move(impl);
+  return result;
 }
 
-Hit BruteForce::closest(const Ray& ray) const {
-  return detail::closest_of_one(impl_->queries, &impl_->triangles, ray);
+detail::QueryTable brute_queries(Simd) { return detail::make_query_table<Triangles, BruteTraversal>(); }
+
+std::shared_ptr<const detail::StructureData> build(MeshView mesh, std::uint32_t first_id) {
+  detail::check_mesh(mesh, first_id, "BruteForce");
+  const detail::BuildClock clock;
+  Triangles triangles = copy_finite(mesh, first_id);
+  Statistics statistics;
+  statistics.triangles = mesh.triangles.size();
+  statistics.references = triangles.id.size();
+  statistics.unseen_triangles = statistics.triangles - statistics.references;
+  statistics.leaves = 1;
+  statistics.depth = 1;
+  statistics.leaf_fill = 1.0;
+  statistics.sah_cost = static_cast<double>(triangles.id.size());
+  statistics.bytes = triangles.id.size() * (sizeof(Triangle) + sizeof(std::uint32_t));
+  auto data = detail::make_structure_data(std::move(triangles), brute_queries, Simd::Auto);
+  data->statistics = statistics;
+  data->statistics.build_seconds = clock.seconds();
+  return data;
 }
-bool BruteForce::any(const Ray& ray) const {
-  return detail::any_of_one(impl_->queries, &impl_->triangles, ray);
-}
-void BruteForce::all(const Ray& ray, std::vector<Hit>& hits) const {
-  detail::all_of_one(impl_->queries, &impl_->triangles, ray, hits);
-}
-void BruteForce::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
-  detail::closest_of_span(impl_->queries, &impl_->triangles, rays, hits);
-}
-void BruteForce::any(std::span<const Ray> rays, std::span<bool> hits) const {
-  detail::any_of_span(impl_->queries, &impl_->triangles, rays, hits);
-}
+
+}  // namespace
+
+BruteForce::BruteForce(MeshView mesh, std::uint32_t first_id) : Structure(build(mesh, first_id)) {}
 
 }  // namespace plumb

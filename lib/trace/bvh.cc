@@ -1,9 +1,8 @@
 #include "plumb/bvh.h"
 
-#include <chrono>
+#include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "base/fp_mode.h"
 #include "base/parallel.h"
@@ -15,26 +14,12 @@
 #include "plumb/error.h"
 #include "trace/binary.h"
 #include "trace/query.h"
-#include "trace/span_calls.h"
+#include "trace/structure_data.h"
 #include "trace/wide_kernels.h"
 #include "wide/collapse.h"
 #include "wide/wide_tree.h"
 
 namespace plumb {
-
-struct Bvh::Impl {
-  using Structure = std::variant<detail::BinaryScene, detail::WideTree<4>, detail::WideTree<8>>;
-
-  std::shared_ptr<const Structure> structure;  // shared by the same tree on several instruction sets
-  Arithmetic arithmetic = Arithmetic::Exact;
-  detail::QueryTable queries{};
-  Statistics statistics;
-
-  /// What `queries` take as their structure.
-  const void* data() const {
-    return std::visit([](const auto& s) { return static_cast<const void*>(&s); }, *structure);
-  }
-};
 
 namespace {
 
@@ -72,33 +57,40 @@ Statistics statistics_of(const detail::WideTree<W>& tree) {
   return detail::tree_statistics(tree);
 }
 
-detail::QueryTable queries_of(Arithmetic arithmetic, int width, Simd simd) {
-  if (width == 2) return detail::binary_queries();
-  if (width == 4) return detail::wide4_queries(simd);
+using QueriesFor = detail::QueryTable (*)(Simd);
+
+QueriesFor wide8_queries_for(Arithmetic arithmetic) {
   switch (arithmetic) {
     case Arithmetic::Fast:
-      return detail::wide8_fast_queries(simd);
+      return detail::wide8_fast_queries;
     case Arithmetic::Watertight:
-      return detail::wide8_watertight_queries(simd);
+      return detail::wide8_watertight_queries;
     default:
-      return detail::wide8_queries(simd);
+      return detail::wide8_queries;
   }
 }
 
-Bvh::Impl::Structure make_structure(BinaryTree tree, MeshView mesh, int width, const BuildOptions& options) {
-  if (width == 2) return detail::make_binary_scene(std::move(tree), mesh, options.first_id);
-  if (width == 4) return detail::collapse<4>(tree, mesh, options.first_id, options.threads);
-  return detail::collapse<8>(tree, mesh, options.first_id, options.threads);
+template <typename Made>
+std::shared_ptr<detail::StructureData> with_queries(Made made, QueriesFor queries_for, Simd simd) {
+  const Statistics statistics = statistics_of(made);
+  auto data = detail::make_structure_data(std::move(made), queries_for, simd);
+  data->statistics = statistics;
+  return data;
 }
 
-void build(Bvh::Impl& impl, MeshView mesh, int width, const BuildOptions& options) {
-  BinaryTree tree = build_binary(mesh, width, options);
-  const std::uint32_t unseen = tree.unseen;
-  impl.structure =
-      std::make_shared<const Bvh::Impl::Structure>(make_structure(std::move(tree), mesh, width, options));
-  impl.statistics = std::visit([](const auto& s) { return statistics_of(s); }, *impl.structure);
-  impl.statistics.triangles = mesh.triangles.size();
-  impl.statistics.unseen_triangles = unseen;
+std::shared_ptr<detail::StructureData> make_data(BinaryTree tree, MeshView mesh, int width,
+                                                 const BuildOptions& options) {
+  const Simd simd = detail::resolve_simd(options.simd);
+  if (width == 2) {
+    return with_queries(detail::make_binary_scene(std::move(tree), mesh, options.first_id),
+                        detail::binary_queries, simd);
+  }
+  if (width == 4) {
+    return with_queries(detail::collapse<4>(tree, mesh, options.first_id, options.threads),
+                        detail::wide4_queries, simd);
+  }
+  return with_queries(detail::collapse<8>(tree, mesh, options.first_id, options.threads),
+                      wide8_queries_for(options.arithmetic), simd);
 }
 
 // Throws plumb::Error unless the enumerator, whose values go from 0 to `last`, is one.
@@ -126,41 +118,25 @@ int checked_width(const BuildOptions& options) {
   return width;
 }
 
-}  // namespace
-
-Bvh::Bvh(MeshView mesh, const BuildOptions& options) {
+std::shared_ptr<const detail::StructureData> build(MeshView mesh, const BuildOptions& options) {
   detail::check_mesh(mesh, options.first_id, "Bvh");
   const int width = checked_width(options);  // throws before the work, not after
-  const auto start = std::chrono::steady_clock::now();
-  auto impl = std::make_shared<Impl>();
-  detail::with_default_fp_mode([&] { build(*impl, mesh, width, options); });
-  impl->arithmetic = options.arithmetic;
-  impl->queries = queries_of(options.arithmetic, width, detail::resolve_simd(options.simd));
-  impl->statistics.build_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  impl_ = std::move(impl);
+  const detail::BuildClock clock;
+  std::shared_ptr<detail::StructureData> data;
+  detail::with_default_fp_mode([&] {
+    BinaryTree tree = build_binary(mesh, width, options);
+    const std::uint32_t unseen = tree.unseen;
+    data = make_data(std::move(tree), mesh, width, options);
+    data->statistics.triangles = mesh.triangles.size();
+    data->statistics.unseen_triangles = unseen;
+    data->statistics.references = mesh.triangles.size() - unseen;
+  });
+  data->statistics.build_seconds = clock.seconds();
+  return data;
 }
 
-Hit Bvh::closest(const Ray& ray) const { return detail::closest_of_one(impl_->queries, impl_->data(), ray); }
-bool Bvh::any(const Ray& ray) const { return detail::any_of_one(impl_->queries, impl_->data(), ray); }
-void Bvh::all(const Ray& ray, std::vector<Hit>& hits) const {
-  detail::all_of_one(impl_->queries, impl_->data(), ray, hits);
-}
-void Bvh::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
-  detail::closest_of_span(impl_->queries, impl_->data(), rays, hits);
-}
-void Bvh::any(std::span<const Ray> rays, std::span<bool> hits) const {
-  detail::any_of_span(impl_->queries, impl_->data(), rays, hits);
-}
+}  // namespace
 
-Bvh Bvh::with_simd(Simd simd) const {
-  auto impl = std::make_shared<Impl>(*impl_);
-  impl->queries = queries_of(impl_->arithmetic, impl_->statistics.width, detail::resolve_simd(simd));
-  Bvh result(*this);
-  result.impl_ = std::move(impl);
-  return result;
-}
-
-Statistics Bvh::statistics() const { return impl_->statistics; }
+Bvh::Bvh(MeshView mesh, const BuildOptions& options) : Structure(build(mesh, options)) {}
 
 }  // namespace plumb

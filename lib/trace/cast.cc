@@ -5,7 +5,6 @@
 #include <span>
 
 #include "base/parallel.h"
-#include "base/simd_dispatch.h"
 #include "frame/frame_check.h"
 
 namespace plumb {
@@ -16,7 +15,6 @@ namespace {
 constexpr int kBlockWidth = 16;
 constexpr int kBlockHeight = 16;
 
-template <typename Structure>
 void cast_block(const Structure& structure, const Camera& camera, int x0, int y0, Frame& frame) {
   std::array<Ray, kBlockWidth * kBlockHeight> rays;
   std::array<Hit, kBlockWidth * kBlockHeight> hits;
@@ -37,7 +35,6 @@ void cast_block(const Structure& structure, const Camera& camera, int x0, int y0
   }
 }
 
-template <typename Structure>
 void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
   detail::check_frame(frame, camera);
   const auto columns = static_cast<std::size_t>((camera.width + kBlockWidth - 1) / kBlockWidth);
@@ -55,17 +52,12 @@ void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, 
 
 }  // namespace
 
-void cast(const Bvh& bvh, const Camera& camera, Frame& frame, const CastOptions& options) {
+void cast(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
   if (options.simd == Simd::Auto) {
-    cast_frame(bvh, camera, frame, options);
+    cast_frame(structure, camera, frame, options);
   } else {
-    cast_frame(bvh.with_simd(options.simd), camera, frame, options);
+    cast_frame(structure.with_simd(options.simd), camera, frame, options);
   }
-}
-
-void cast(const BruteForce& brute, const Camera& camera, Frame& frame, const CastOptions& options) {
-  detail::resolve_simd(options.simd);  // throws for one that is not there
-  cast_frame(brute, camera, frame, options);
 }
 
 }  // namespace plumb

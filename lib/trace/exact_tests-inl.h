@@ -39,8 +39,9 @@ HWY_INLINE Triangle TriangleOf(const TriangleBlock<W>& block, size_t lane) {
 template <int W>
 class ExactTests {
  public:
-  ExactTests(const WideTree<W>& tree, const Ray& ray, float limit)
-      : ray_(ray), box_ray_(ray, tree.greatest), filter_(ray, tree.greatest) {
+  // `greatest` is the greatest |coordinate| of the scene's finite triangles.
+  ExactTests(float greatest, const Ray& ray, float limit)
+      : ray_(ray), box_ray_(ray, greatest), filter_(ray, greatest) {
     if (!box_ray_.in_range) exact_ray_.emplace(ray);
     filter_.set_limit(limit);
   }
@@ -96,7 +97,7 @@ template <int W>
 struct ExactTraversal {
   template <class Query>
   static void run(const WideTree<W>& tree, const Ray& ray, Query& query) {
-    ExactTests<W> tests(tree, ray, query.limit());
+    ExactTests<W> tests(tree.greatest, ray, query.limit());
     Traverse(tree, tests, query);
   }
 };

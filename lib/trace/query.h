@@ -8,9 +8,10 @@
 #include "exact/filter_ray.h"
 #include "exact/intersect.h"
 #include "plumb/ray.h"
+#include "plumb/statistics.h"
 
 // What a traversal is asked for. Each query holds the limit beyond which nothing matters any more and
-// takes hits one at a time; the traversals are the same for all.
+// takes hits one at a time, and may count what is tested; the traversals are the same for all.
 
 namespace plumb::detail {
 
@@ -19,8 +20,14 @@ inline bool ray_can_hit(const Ray& ray) {
   return ray_is_valid(ray) && (ray.tmin > 0.0f ? ray.tmin : 0.0f) < ray.tmax;
 }
 
+/// Counts nothing.
+struct NoCounts {
+  void count_volumes(std::size_t) {}
+  void count_triangles(std::size_t) {}
+};
+
 /// The smallest (t, id).
-class ClosestQuery {
+class ClosestQuery : public NoCounts {
  public:
   explicit ClosestQuery(const Ray& ray) : ray_(ray), limit_(depth_limit(ray.tmax)) {}
 
@@ -42,8 +49,19 @@ class ClosestQuery {
   float limit_;
 };
 
+/// ClosestQuery, with what it takes to answer it.
+class CountingQuery : public ClosestQuery {
+ public:
+  CountingQuery(const Ray& ray, TestCounts& counts) : ClosestQuery(ray), counts_(counts) {}
+  void count_volumes(std::size_t n) { counts_.volumes += n; }
+  void count_triangles(std::size_t n) { counts_.triangles += n; }
+
+ private:
+  TestCounts& counts_;
+};
+
 /// Whether any hit counts.
-class AnyQuery {
+class AnyQuery : public NoCounts {
  public:
   explicit AnyQuery(const Ray& ray) : ray_(ray), limit_(depth_limit(ray.tmax)) {}
   float limit() const { return limit_; }
@@ -60,7 +78,7 @@ class AnyQuery {
 };
 
 /// Every hit that counts, unsorted.
-class AllQuery {
+class AllQuery : public NoCounts {
  public:
   AllQuery(const Ray& ray, std::vector<Hit>& hits) : ray_(ray), limit_(depth_limit(ray.tmax)), hits_(hits) {}
   float limit() const { return limit_; }
@@ -77,6 +95,10 @@ class AllQuery {
 
 inline void sort_hits(std::vector<Hit>& hits) {
   std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return hit_before(a.t, a.id, b); });
+  // A structure of cells meets a triangle in each of them, with the same t: the hit's bits are the
+  // triangle's.
+  hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.id == b.id; }),
+             hits.end());
 }
 
 /// The queries over one structure. `structure` is what the functions were made for. Callers hold the
@@ -85,10 +107,12 @@ struct QueryTable {
   void (*closest)(const void* structure, const Ray* rays, Hit* hits, std::size_t count);
   void (*any)(const void* structure, const Ray* rays, bool* hits, std::size_t count);
   void (*all)(const void* structure, const Ray& ray, std::vector<Hit>& hits);
+  void (*count_tests)(const void* structure, const Ray* rays, std::size_t count, TestCounts& counts);
 };
 
-/// A table from a structure's traversal: `traverse(structure, ray, query)` offers every line hit that
-/// may matter to query.take() until it returns true.
+/// A table from a structure's traversal: `Traversal::run(structure, ray, query)` offers every line hit that
+/// may matter to query.take() until it returns true, and tells the query what it tests. One offered twice
+/// counts once.
 template <typename Structure, typename Traversal>
 QueryTable make_query_table() {
   QueryTable table;
@@ -111,6 +135,13 @@ QueryTable make_query_table() {
     AllQuery query(ray, hits);
     if (ray_can_hit(ray)) Traversal::run(*static_cast<const Structure*>(structure), ray, query);
     sort_hits(hits);
+  };
+  table.count_tests = [](const void* structure, const Ray* rays, std::size_t count, TestCounts& counts) {
+    counts.rays += count;
+    for (std::size_t i = 0; i < count; ++i) {
+      CountingQuery query(rays[i], counts);
+      if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
+    }
   };
   return table;
 }

@@ -39,9 +39,11 @@ HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query) {
   WideTraversalEntry current{0.0f, 0, 0};
   for (;;) {
     if (current.count != 0) {
+      query.count_triangles(current.count);
       if (tests.leaf(&tree.blocks[current.child], current.count, query)) return;
     } else {
       const WideNode<W>& node = tree.nodes[current.child];
+      query.count_volumes(W);
       HWY_ALIGN float near[W];
       std::uint32_t met = tests.boxes(node, query.limit(), near);
       // Insert by distance, the nearest on top.

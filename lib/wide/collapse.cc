@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "base/fp_mode.h"
@@ -93,17 +91,6 @@ class Plan {
   const BinaryTree& binary_;
 };
 
-// TriangleBlock::extent. The sum is exact but for the last bits of a double, far inside the slack that
-// covers it and any order of summing in float; a difference that overflows makes it infinite.
-float extent_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const auto length = [&](const glm::vec3& to) {
-    return (double{std::fabs(to.x - a.x)} + double{std::fabs(to.y - a.y)}) + double{std::fabs(to.z - a.z)};
-  };
-  const double greatest = std::max(length(b), length(c)) * (1.0 + 4 * 0x1p-24);
-  if (greatest > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::infinity();
-  return std::max(static_cast<float>(greatest), 0x1p-30f);
-}
-
 // Writes the wide tree's nodes and blocks where the plan has them.
 template <int W>
 class Filler {
@@ -121,7 +108,7 @@ class Filler {
       const BinaryNode& from = binary_.nodes[planned.binary[static_cast<std::size_t>(i)]];
       set_child(node, i, from.box, child, from.count);
       for (std::uint32_t k = 0; k < from.count; ++k) {
-        set_triangle(wide_.blocks[child + k / W], k % W, binary_.order[from.first + k]);
+        set_triangle(wide_.blocks[child + k / W], k % W, mesh_, binary_.order[from.first + k], first_id_);
       }
     }
   }
@@ -134,17 +121,6 @@ class Filler {
     }
     node.child[i] = child;
     node.count[i] = count;
-  }
-
-  void set_triangle(TriangleBlock<W>& block, std::uint32_t lane, std::uint32_t index) const {
-    const glm::uvec3& corners = mesh_.triangles[index];
-    const glm::vec3 vertex[3] = {mesh_.positions[corners.x], mesh_.positions[corners.y],
-                                 mesh_.positions[corners.z]};
-    for (int v = 0; v < 3; ++v) {
-      for (int axis = 0; axis < 3; ++axis) block.vertex[v][axis][lane] = vertex[v][axis];
-    }
-    block.extent[lane] = extent_of(vertex[0], vertex[1], vertex[2]);
-    block.id[lane] = first_id_ + index;
   }
 
   const BinaryTree& binary_;

@@ -5,6 +5,7 @@
 
 #include "base/aligned.h"
 #include "build/binary_tree.h"
+#include "wide/triangle_block.h"
 
 namespace plumb::detail {
 
@@ -25,17 +26,6 @@ struct alignas(64) WideNode {
   std::uint32_t count[W];
 };
 static_assert(sizeof(WideNode<4>) == 128 && sizeof(WideNode<8>) == 256);
-
-/// W triangles in SoA: `vertex[v][axis][lane]`, as they came from the mesh. Lanes past the leaf's
-/// count are zero and must be masked off.
-template <int W>
-struct alignas(W * sizeof(float)) TriangleBlock {
-  float vertex[3][3][W];
-  /// An upper bound of max(|v1 - v0|_1, |v2 - v0|_1) as computed in float, at least 2^-30: the term L
-  /// of the float filter's bound (exact/filter-inl.h).
-  float extent[W];
-  std::uint32_t id[W];
-};
 
 /// A tree of W-wide nodes; nodes[0] is the root. An empty scene has one node without children.
 template <int W>

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <span>
-#include <vector>
+#include <utility>
 
 #include "plumb/mesh.h"
-#include "plumb/ray.h"
 #include "plumb/simd.h"
+#include "plumb/structure.h"
 
 namespace plumb {
 
@@ -59,68 +56,26 @@ struct BuildOptions {
   std::function<bool(double)> progress = nullptr;
 };
 
-/// What a tree is like.
-struct Statistics {
-  std::size_t triangles = 0;         ///< in the mesh
-  std::size_t unseen_triangles = 0;  ///< of these, left out: a coordinate is NaN or infinite
-  std::size_t nodes = 0;             ///< inner nodes
-  std::size_t leaves = 0;            ///< nodes that hold triangles
-  int width = 0;                     ///< children per node
-  int depth = 0;                     ///< nodes on the longest path from the root to a leaf
-  double fill = 0;                   ///< used children, as a share of `nodes * width`
-  double leaf_fill = 0;              ///< triangles in leaves, as a share of the lanes they take
-  /// Boxes and triangles that a random line which meets the root's box is expected to be tested
-  /// against, if nothing hides anything: the surface area heuristic (Goldsmith and Salmon 1987;
-  /// MacDonald and Booth 1990). Each counts 1, whatever number a machine tests at once, so that trees
-  /// of all widths compare.
-  double sah_cost = 0;
-  std::size_t bytes = 0;     ///< memory held, triangles included
-  double build_seconds = 0;  ///< what the constructor took, by the wall clock
-};
-
 /// A bounding volume hierarchy over a copy of the mesh.
-///
-/// Answers what docs/visibility.md defines, bit for bit, whatever the width, the quality, the instruction
-/// set and the caller's floating-point mode; less where a lesser Arithmetic was asked for. Immutable:
-/// const calls from many threads are safe, and copies share the tree. One that was moved from can only be
-/// assigned to.
 ///
 /// Built by the surface area heuristic over bins (Wald 2007, "On fast Construction of SAH-based Bounding
 /// Volume Hierarchies"), then collapsed to wide nodes (Wald, Benthin and Boulos 2008, "Getting Rid of
 /// Packets"). Takes about n log n time for n triangles.
-class Bvh {
+///
+/// Copies what it needs of the mesh, which may have any number of triangles, none as well. Triangles with a
+/// NaN or infinite coordinate are left out, and counted in statistics(). The answers do not depend on the
+/// width or the quality.
+class Bvh : public Structure {
  public:
-  /// Copies what it needs of the mesh, which may have any number of triangles, none as well. Triangles
-  /// with a NaN or infinite coordinate are left out, and counted in statistics().
   /// Throws plumb::Error for a vertex index out of range, ids that reach kNone, 2^31 triangles and
   /// more, and options out of range, and Cancelled when the options' progress says so.
   explicit Bvh(MeshView mesh, const BuildOptions& options = {});
 
-  /// The smallest (t, id) among the hits that count, those with max(ray.tmin, 0) < t <= ray.tmax;
-  /// {+inf, kNone} when there is none.
-  Hit closest(const Ray& ray) const;
-  /// Whether any hit counts.
-  bool any(const Ray& ray) const;
-  /// Replaces the contents of `hits` by every hit that counts, sorted by (t, id).
-  void all(const Ray& ray, std::vector<Hit>& hits) const;
-
-  /// The closest hit of every ray, hits[i] that of rays[i], on the calling thread. Throws plumb::Error
-  /// when the sizes differ.
-  void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
-  /// Whether any hit of each ray counts, in the same way.
-  void any(std::span<const Ray> rays, std::span<bool> hits) const;
-
-  /// The same tree, shared, with its queries on another instruction set: Auto is the best one. Throws
-  /// plumb::Error for one that is not among simd_targets().
-  Bvh with_simd(Simd simd) const;
-
-  /// What the tree is like.
-  Statistics statistics() const;
-
-  struct Impl;
+  /// As Structure::with_simd.
+  Bvh with_simd(Simd simd) const { return Bvh(Structure::with_simd(simd)); }
 
  private:
-  std::shared_ptr<const Impl> impl_;
+  explicit Bvh(Structure structure) : Structure(std::move(structure)) {}
 };
 
 }  // namespace plumb

@@ -2,11 +2,10 @@
 
 #include <functional>
 
-#include "plumb/brute_force.h"
-#include "plumb/bvh.h"
 #include "plumb/camera.h"
 #include "plumb/frame.h"
 #include "plumb/simd.h"
+#include "plumb/structure.h"
 
 namespace plumb {
 
@@ -26,8 +25,6 @@ struct CastOptions {
 /// Casts the ray of every pixel and overwrites the whole frame. Throws plumb::Error, and leaves the
 /// frame as it was, when the frame's size is not the camera's, when it does not hold a depth and an id
 /// for each pixel, and for options out of range; and Cancelled when the options' progress says so.
-void cast(const Bvh& bvh, const Camera& camera, Frame& frame, const CastOptions& options = {});
-/// The same, every ray against every triangle.
-void cast(const BruteForce& brute, const Camera& camera, Frame& frame, const CastOptions& options = {});
+void cast(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options = {});
 
 }  // namespace plumb

@@ -11,10 +11,10 @@
 /// (flush-to-zero, denormals-are-zero, rounding direction) changes no answer and is the same afterwards.
 
 /// @mainpage
-/// A mesh (mesh.h, io.h, builtin.h) is asked by rays (ray.h) through a structure (bvh.h, brute_force.h),
-/// one ray or many at a time; surface.h gives the point and normal of a hit. A camera (camera.h) asks for a
-/// whole frame (frame.h), through a structure (cast.h) or by drawing triangles (raster.h). Frames of both
-/// are equal to the bit, and compare() says so.
+/// A mesh (mesh.h, io.h, builtin.h) is asked by rays (ray.h) through a structure (structure.h: bvh.h,
+/// brute_force.h), one ray or many at a time; surface.h gives the point and normal of a hit. A camera
+/// (camera.h) asks for a whole frame (frame.h), through a structure (cast.h) or by drawing triangles
+/// (raster.h). Frames of both are equal to the bit, and compare() says so.
 ///
 /// docs/visibility.md defines what is visible; docs/examples has programs to start from.
 
@@ -30,6 +30,8 @@
 #include "plumb/raster.h"
 #include "plumb/ray.h"
 #include "plumb/simd.h"
+#include "plumb/statistics.h"
+#include "plumb/structure.h"
 #include "plumb/surface.h"
 #include "plumb/topology.h"
 #include "plumb/version.h"

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "plumb/simd.h"
+#include "plumb/statistics.h"
+#include "trace/query.h"
+
+namespace plumb::detail {
+
+/// What a Structure holds. Copies of a Structure share it; the same structure on several instruction sets
+/// shares `structure`.
+struct StructureData {
+  std::shared_ptr<const void> structure;  ///< what the queries take
+  QueryTable (*queries_for)(Simd);        ///< for a resolved target; scalar code ignores it
+  QueryTable queries;
+  Statistics statistics;
+};
+
+/// `simd` must have been resolved.
+template <typename Made>
+std::shared_ptr<StructureData> make_structure_data(Made structure, QueryTable (*queries_for)(Simd),
+                                                   Simd simd) {
+  auto data = std::make_shared<StructureData>();
+  data->structure = std::make_shared<const Made>(std::move(structure));
+  data->queries_for = queries_for;
+  data->queries = queries_for(simd);
+  return data;
+}
+
+/// For Statistics::build_seconds.
+class BuildClock {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace plumb::detail

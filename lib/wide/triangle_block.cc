@@ -1,0 +1,41 @@
+#include "wide/triangle_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/vec3.hpp>
+
+namespace plumb::detail {
+namespace {
+
+// TriangleBlock::extent. The sum is exact but for the last bits of a double, far inside the slack that
+// covers it and any order of summing in float; a difference that overflows makes it infinite.
+float extent_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const auto length = [&](const glm::vec3& to) {
+    return (double{std::fabs(to.x - a.x)} + double{std::fabs(to.y - a.y)}) + double{std::fabs(to.z - a.z)};
+  };
+  const double greatest = std::max(length(b), length(c)) * (1.0 + 4 * 0x1p-24);
+  if (greatest > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::infinity();
+  return std::max(static_cast<float>(greatest), 0x1p-30f);
+}
+
+}  // namespace
+
+template <int W>
+void set_triangle(TriangleBlock<W>& block, std::size_t lane, MeshView mesh, std::uint32_t index,
+                  std::uint32_t first_id) {
+  const glm::uvec3& corners = mesh.triangles[index];
+  const glm::vec3 vertex[3] = {mesh.positions[corners.x], mesh.positions[corners.y],
+                               mesh.positions[corners.z]};
+  for (int v = 0; v < 3; ++v) {
+    for (int axis = 0; axis < 3; ++axis) block.vertex[v][axis][lane] = vertex[v][axis];
+  }
+  block.extent[lane] = extent_of(vertex[0], vertex[1], vertex[2]);
+  block.id[lane] = first_id + index;
+}
+
+template void set_triangle(TriangleBlock<4>&, std::size_t, MeshView, std::uint32_t, std::uint32_t);
+template void set_triangle(TriangleBlock<8>&, std::size_t, MeshView, std::uint32_t, std::uint32_t);
+
+}  // namespace plumb::detail
