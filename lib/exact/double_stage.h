@@ -89,20 +89,25 @@ struct DoubleStage {
   bool certainly_covered() const { return e_min > e_error || e_max < -e_error; }
   bool certainly_missed() const { return e_min < -e_error && e_max > e_error; }
 
+  // The quotient of the computed values, and how many units of its last place it may be off from
+  // det(a, b, c) / den: a relative (t_num_error / |t_num| + den_error / |den|), up to second order, and u
+  // for the division; 2^53 times as much in units of the last place.
+  double depth_quotient(double& error_ulps) const {
+    error_ulps = 0x1p53 * 1.02 * (t_num_error / std::fabs(t_num) + den_error / std::fabs(den)) + 3.0;
+    return t_num / den;
+  }
+
   // RN32(t_num / den) where every quotient within the bounds rounds to it.
   //
-  // The quotient q of the computed values is off by a relative (t_num_error / |t_num| + den_error /
-  // |den|), up to second order, and by u for the division. In units of q's last place that is at most
-  // 2^53 times as much. q's last 29 bits are what the rounding to float drops; the rounding is certain when
-  // they are further than that from 2^28, the midpoint of two floats. The error must also be small
+  // The quotient's last 29 bits are what the rounding to float drops; the rounding is certain when they are
+  // further than the error from 2^28, the midpoint of two floats. The error must also be small
   // against a quarter of a float's last place, lest it reach across a power of two, where floats
   // lie twice as close.
   bool certain_depth(float& t) const {
-    const double q = t_num / den;
+    double error_ulps = 0.0;
+    const double q = depth_quotient(error_ulps);
     const double magnitude = std::fabs(q);
     if (!(magnitude > 0x1p-125 && magnitude < 0x1p127)) return false;
-    const double error_ulps =
-        0x1p53 * 1.02 * (t_num_error / std::fabs(t_num) + den_error / std::fabs(den)) + 3.0;
     if (!(error_ulps < 0x1p26)) return false;
     const auto low = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(q) & 0x1fffffffu);
     const auto distance = static_cast<double>(std::abs(low - 0x10000000));

@@ -28,19 +28,17 @@ HWY_INLINE V DirectionComponent(D d, V column, V row, double corner, double du, 
   return hn::PromoteTo(d, RoundToFloat(df, sum));
 }
 
-// RN32(t) of one pixel's ray and one triangle a lane, where that is certain, finite and above 0. `corner`
-// gives the nine coordinates, `dx`, `dy`, `dz` are the float directions.
+// T / den of one pixel's ray and one triangle a lane, and how far it may be off: infinite where the bound says
+// nothing, or NaN. `corner` gives the nine coordinates, `dx`, `dy`, `dz` are the float directions.
 //
 // t = T / den with T = N.a, den = N.d, N = e1 x e2 and bounds as in exact/intersect.cc's double stage, whose
 // values these are: with u = 2^-53, |error of T| <= 8.01 u R L^2, |error of den| <= 7.01 u D L^2, fused or
 // not. The quotient is off by (T's error + |t| den's error) / |den|, up to second order (1 % where
 // both errors are small, which is asked), and by 3 u for the reciprocal, the product and the sum that gives
-// an end of the interval. Rounding is monotonic: where both ends round to the same float, so does everything
-// between. NaN compares as not equal.
+// an end of the interval.
 template <class D, class Corner, class V = hn::Vec<D>>
-HWY_INLINE void TriangleDepths(D d, const glm::vec3& eye, const Corner& corner, V dx, V dy, V dz,
-                               hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
-  const hn::Rebind<float, D> df;
+HWY_INLINE void TriangleQuotients(D d, const glm::vec3& eye, const Corner& corner, V dx, V dy, V dz,
+                                  V& quotient, V& slack) {
   const V v0x = corner(0), v0y = corner(1), v0z = corner(2);
   const V ax = hn::Sub(v0x, hn::Set(d, double{eye.x}));
   const V ay = hn::Sub(v0y, hn::Set(d, double{eye.y}));
@@ -62,16 +60,25 @@ HWY_INLINE void TriangleDepths(D d, const glm::vec3& eye, const Corner& corner, 
   const V den_error = hn::Mul(hn::Mul(norm1(dx, dy, dz), extent2), hn::Set(d, 7.2 * 0x1p-53));
 
   const V inverse = hn::Div(hn::Set(d, 1.0), den);
-  const V quotient = hn::Mul(t_num, inverse);
+  quotient = hn::Mul(t_num, inverse);
   const V error = hn::Mul(hn::MulAdd(hn::Abs(quotient), den_error, t_error), hn::Abs(inverse));
-  const V slack = hn::MulAdd(error, hn::Set(d, 1.02), hn::Mul(hn::Abs(quotient), hn::Set(d, 5.0 * 0x1p-53)));
+  const V finite = hn::MulAdd(error, hn::Set(d, 1.02), hn::Mul(hn::Abs(quotient), hn::Set(d, 5.0 * 0x1p-53)));
   const V small = hn::Set(d, 0x1p-11);
   const auto errors_small = hn::And(hn::Lt(t_error, hn::Mul(hn::Abs(t_num), small)),
                                     hn::Lt(den_error, hn::Mul(hn::Abs(den), small)));
-  const V safe_slack =
-      hn::IfThenElse(errors_small, slack, hn::Set(d, std::numeric_limits<double>::infinity()));
-  t = RoundToFloat(df, hn::Sub(quotient, safe_slack));
-  const auto other = RoundToFloat(df, hn::Add(quotient, safe_slack));
+  slack = hn::IfThenElse(errors_small, finite, hn::Set(d, std::numeric_limits<double>::infinity()));
+}
+
+// RN32(t) of the same, where that is certain, finite and above 0. Rounding is monotonic: where both ends of
+// the interval round to the same float, so does everything between. NaN compares as not equal.
+template <class D, class Corner, class V = hn::Vec<D>>
+HWY_INLINE void TriangleDepths(D d, const glm::vec3& eye, const Corner& corner, V dx, V dy, V dz,
+                               hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
+  const hn::Rebind<float, D> df;
+  V quotient, slack;
+  TriangleQuotients(d, eye, corner, dx, dy, dz, quotient, slack);
+  t = RoundToFloat(df, hn::Sub(quotient, slack));
+  const auto other = RoundToFloat(df, hn::Add(quotient, slack));
   const auto in_range =
       hn::And(hn::Gt(t, hn::Zero(df)), hn::Lt(t, hn::Set(df, std::numeric_limits<float>::infinity())));
   certain = hn::And(hn::Eq(t, other), in_range);

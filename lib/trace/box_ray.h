@@ -19,7 +19,9 @@ class ExactBoxRay {
   explicit ExactBoxRay(const Ray& ray);
 
   /// Whether the box may hold a point with t from tmin to `limit`; then `near` is a lower bound of
-  /// its t, at least max(tmin, 0).
+  /// its t, at least max(tmin, 0). Where it is subnormal, rounding may leave it 2^-150 too great. That loses
+  /// nothing against a limit from depth_limit(), the float after the best depth b: what is above
+  /// that is at least b + 2 * 2^-149, so the point's t is above b + 2^-149 and rounds to more than b.
   bool meets(const float lo[3], const float hi[3], float limit, float& near) const;
 
  private:
@@ -38,7 +40,7 @@ class ExactBoxRay {
 /// that where s > 0 the near value is below it and the far value above. Where s < 0, a near value is
 /// at most 0 (and the comparison starts at max(tmin, 0)), and a far value is negative, as it should be: no
 /// point of the box lies ahead. A product that underflows is off by up to 2^-150, which the
-/// comparison allows for (kUnderflow).
+/// comparison allows for (kUnderflow), as does depth_limit() for a near value kept for later.
 struct BoxRay {
   float origin[3];
   float inv_near[3];

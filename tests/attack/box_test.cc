@@ -84,6 +84,29 @@ WideNode<4> node_of(const Touch& touch) {
   return node;
 }
 
+// The same touch with coordinates and the direction times powers of two: t changes by one of them.
+Touch scaled(const Touch& touch, int coordinates, int direction) {
+  Touch result = touch;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (float* value : {&result.ray.origin[axis], &result.lo[axis], &result.hi[axis]})
+      *value = std::ldexp(*value, coordinates);
+    result.ray.direction[axis] = std::ldexp(result.ray.direction[axis], direction);
+  }
+  return result;
+}
+
+// Whether scaling lost nothing: subnormal numbers have fewer bits.
+bool is_exact(const Touch& touch, const Touch& scaled_touch, int coordinates, int direction) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::ldexp(scaled_touch.ray.origin[axis], -coordinates) != touch.ray.origin[axis] ||
+        std::ldexp(scaled_touch.lo[axis], -coordinates) != touch.lo[axis] ||
+        std::ldexp(scaled_touch.hi[axis], -coordinates) != touch.hi[axis] ||
+        std::ldexp(scaled_touch.ray.direction[axis], -direction) != touch.ray.direction[axis])
+      return false;
+  }
+  return true;
+}
+
 // The test with factors 1 -+ slack 2^-24 in place of 1 -+ 4 2^-24.
 bool is_met(Simd simd, const Touch& touch, double slack, float& near) {
   BoxRay ray(touch.ray, 0x1p56f);
@@ -127,6 +150,43 @@ TEST_SUITE("attack: boxes") {
       CHECK(most_slack <= 4.0);
       CHECK(most_slack > 0.8);
       CHECK(lost_without > 10'000 / static_cast<int>(hard::kEffortDivisor));
+    }
+  }
+
+  TEST_CASE("a box that is touched in one point is met at the ends of the range, in float and in double") {
+    for (const Simd simd : simd_targets()) {
+      Random random(6);
+      int in_float = 0, in_double = 0;
+      for (int i = 0; i < hard::effort(200'000); ++i) {
+        const Touch plain = draw(random);
+        const int coordinates = random.one_in(2) ? random.between(-149, 4) : random.between(0, 6);
+        const int direction = random.one_in(2) ? random.between(-149, 90) : random.between(30, 50);
+        const Touch touch = scaled(plain, coordinates, direction);
+        if (!is_exact(plain, touch, coordinates, direction)) continue;
+        const double t = std::ldexp(double(plain.num) / plain.den, coordinates - direction);
+        if (!(t > 0x1p-140 && t < 0x1p120)) continue;
+        float greatest = 0.0f;
+        for (int axis = 0; axis < 3; ++axis)
+          greatest = std::max({greatest, std::fabs(touch.lo[axis]), std::fabs(touch.hi[axis])});
+        float near[4] = {};
+        const BoxRay ray(touch.ray, greatest);
+        if (ray.in_range) {
+          ++in_float;
+          CHECK((PLUMB_DISPATCH(Boxes, simd)(node_of(touch), ray, std::numeric_limits<float>::infinity(),
+                                             near) &
+                 1u) != 0);
+          CHECK(double{near[0]} <= t * (1.0 + 0x1p-50) + 0x1p-150);
+        }
+        ++in_double;
+        float exact_near = 0.0f;
+        CHECK(ExactBoxRay(touch.ray).meets(touch.lo, touch.hi, std::numeric_limits<float>::infinity(),
+                                           exact_near));
+        CHECK(double{exact_near} <= t * (1.0 + 0x1p-50) + 0x1p-150);
+      }
+      MESSAGE(std::string(simd_name(simd))
+              << ": " << in_float << " boxes in float, " << in_double << " in double");
+      CHECK(in_float > 5'000 / static_cast<int>(hard::kEffortDivisor));
+      CHECK(in_double > 20'000 / static_cast<int>(hard::kEffortDivisor));
     }
   }
 }
