@@ -35,8 +35,7 @@ bool ExactBoxRay::meets(const float lo[3], const float hi[3], float limit, float
     farthest = std::min(farthest, ((forward ? high : low) - origin_[axis]) * inv_far_[axis]);
   }
   if (!(nearest <= farthest)) return false;
-  // Rounded to float it may grow by half a unit in the last place: take it down again.
-  near = std::max(static_cast<float>(nearest * (1.0 - 0x1p-23)), 0.0f);
+  near = lower_float(nearest);
   return true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "build/binary_tree.h"
@@ -12,6 +13,12 @@
 
 namespace plumb::detail {
 
+/// A lower bound of a t >= 0 as a float: rounded to float it may grow by half a unit in the last place, so it
+/// is taken down before. Where it is subnormal that does nothing, and it may be 2^-150 too great. That loses
+/// nothing against a limit from depth_limit(), the float after the best depth b: what is above that is at
+/// least b + 2 * 2^-149, so the point's t is above b + 2^-149 and rounds to more than b.
+inline float lower_float(double t) { return std::max(static_cast<float>(t * (1.0 - 0x1p-23)), 0.0f); }
+
 /// A ray against boxes in plain double arithmetic, for any valid ray: the reference, and the path for
 /// rays that the float test cannot take.
 class ExactBoxRay {
@@ -19,9 +26,7 @@ class ExactBoxRay {
   explicit ExactBoxRay(const Ray& ray);
 
   /// Whether the box may hold a point with t from tmin to `limit`; then `near` is a lower bound of
-  /// its t, at least max(tmin, 0). Where it is subnormal, rounding may leave it 2^-150 too great. That loses
-  /// nothing against a limit from depth_limit(), the float after the best depth b: what is above
-  /// that is at least b + 2 * 2^-149, so the point's t is above b + 2^-149 and rounds to more than b.
+  /// its t, at least max(tmin, 0), as lower_float() has it.
   bool meets(const float lo[3], const float hi[3], float limit, float& near) const;
 
  private:

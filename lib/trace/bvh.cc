@@ -45,18 +45,6 @@ BinaryTree build_binary(MeshView mesh, int width, const BuildOptions& options) {
   return detail::build_binned_sah(mesh, binned, progress);
 }
 
-Statistics statistics_of(const detail::BinaryScene& scene) {
-  Statistics statistics = detail::tree_statistics(scene.tree);
-  statistics.bytes +=
-      scene.triangles.size() * sizeof(detail::Triangle) + scene.ids.size() * sizeof(std::uint32_t);
-  return statistics;
-}
-
-template <int W>
-Statistics statistics_of(const detail::WideTree<W>& tree) {
-  return detail::tree_statistics(tree);
-}
-
 using QueriesFor = detail::QueryTable (*)(Simd);
 
 QueriesFor wide8_queries_for(Arithmetic arithmetic) {
@@ -70,27 +58,31 @@ QueriesFor wide8_queries_for(Arithmetic arithmetic) {
   }
 }
 
-template <typename Made>
-std::shared_ptr<detail::StructureData> with_queries(Made made, QueriesFor queries_for, Simd simd) {
-  const Statistics statistics = statistics_of(made);
-  auto data = detail::make_structure_data(std::move(made), queries_for, simd);
+template <int W>
+std::shared_ptr<detail::StructureData> make_wide(const BinaryTree& tree, MeshView mesh,
+                                                 const BuildOptions& options, QueriesFor queries_for) {
+  detail::WideTree<W> wide = detail::collapse<W>(tree, mesh, options.first_id, options.threads);
+  const Statistics statistics = detail::tree_statistics(wide);
+  auto data = detail::make_structure_data(std::move(wide), queries_for, detail::resolve_simd(options.simd));
+  data->statistics = statistics;
+  return data;
+}
+
+std::shared_ptr<detail::StructureData> make_binary(BinaryTree tree, MeshView mesh,
+                                                   const BuildOptions& options) {
+  Statistics statistics = detail::tree_statistics(tree);
+  detail::BinaryScene scene = detail::make_binary_scene(std::move(tree), mesh, options.first_id);
+  statistics.bytes = scene.nodes.size() * sizeof(scene.nodes[0]) + detail::bytes_of(scene.leaves);
+  auto data = detail::make_structure_data(std::move(scene), detail::binary_queries, Simd::Auto);
   data->statistics = statistics;
   return data;
 }
 
 std::shared_ptr<detail::StructureData> make_data(BinaryTree tree, MeshView mesh, int width,
                                                  const BuildOptions& options) {
-  const Simd simd = detail::resolve_simd(options.simd);
-  if (width == 2) {
-    return with_queries(detail::make_binary_scene(std::move(tree), mesh, options.first_id),
-                        detail::binary_queries, simd);
-  }
-  if (width == 4) {
-    return with_queries(detail::collapse<4>(tree, mesh, options.first_id, options.threads),
-                        detail::wide4_queries, simd);
-  }
-  return with_queries(detail::collapse<8>(tree, mesh, options.first_id, options.threads),
-                      wide8_queries_for(options.arithmetic), simd);
+  if (width == 2) return make_binary(std::move(tree), mesh, options);
+  if (width == 4) return make_wide<4>(tree, mesh, options, detail::wide4_queries);
+  return make_wide<8>(tree, mesh, options, wide8_queries_for(options.arithmetic));
 }
 
 // Throws plumb::Error unless the enumerator, whose values go from 0 to `last`, is one.

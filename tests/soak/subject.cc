@@ -7,6 +7,7 @@
 #include "plumb/cast.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
+#include "plumb/sphere_tree.h"
 
 namespace plumb::soak {
 namespace {
@@ -42,6 +43,23 @@ Subject tree(int width, Simd simd, bool scalar) {
           nullptr};
 }
 
+Subject brute_force(Simd simd) {
+  const std::string target(simd_name(simd));
+  return {"brute " + target, "BruteForce(mesh, {.simd = parse_simd(\"" + target + "\")})",
+          [simd](const TriangleMesh& mesh) {
+            return std::make_unique<Adapted<BruteForce>>(BruteForce(mesh, {.simd = simd}));
+          },
+          nullptr};
+}
+
+Subject spheres() {
+  return {"spheres", "SphereTree(mesh)",
+          [](const TriangleMesh& mesh) {
+            return std::make_unique<Adapted<SphereTree>>(SphereTree(mesh, {.threads = 1}));
+          },
+          nullptr};
+}
+
 Subject rasterizer(Simd simd) {
   RasterOptions options;
   options.threads = 1;
@@ -57,11 +75,9 @@ Subject rasterizer(Simd simd) {
 
 std::vector<Subject> all_subjects() {
   std::vector<Subject> subjects;
-  subjects.push_back(
-      {"brute", "BruteForce(mesh)",
-       [](const TriangleMesh& mesh) { return std::make_unique<Adapted<BruteForce>>(BruteForce(mesh)); },
-       nullptr});
+  for (const Simd simd : simd_targets()) subjects.push_back(brute_force(simd));
   subjects.push_back(tree(2, simd_targets().front(), true));
+  subjects.push_back(spheres());
   for (const int width : {4, 8}) {
     for (const Simd simd : simd_targets()) subjects.push_back(tree(width, simd, false));
   }

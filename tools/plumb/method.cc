@@ -10,6 +10,7 @@
 #include "plumb/cast.h"
 #include "plumb/error.h"
 #include "plumb/raster.h"
+#include "plumb/sphere_tree.h"
 #include "text.h"
 
 namespace plumb::tool {
@@ -44,30 +45,57 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-template <typename Structure>
-void timed_cast(const Structure& structure, const Camera& camera, int threads,
-                const std::function<bool(double)>& progress, RunResult& result) {
-  CastOptions options;
-  options.threads = threads;
-  options.progress = progress;
-  const Stopwatch watch;
-  cast(structure, camera, result.frame, options);
-  result.frame_seconds = watch.seconds();
+struct BuildSettings {
+  Simd simd;
+  int threads;
+  std::function<bool(double)> progress;
+};
+
+Structure build_bvh(int width, MeshView mesh, const BuildSettings& settings) {
+  BuildOptions options;
+  options.width = width;
+  options.threads = settings.threads;
+  options.simd = settings.simd;
+  options.progress = settings.progress;
+  return Bvh(mesh, options);
 }
 
-int tree_width(Method method) {
-  if (method == Method::Bvh2) return 2;
-  return method == Method::Bvh4 ? 4 : 8;
+// What makes the rays' frames; not for Method::Raster.
+Structure build_structure(Method method, MeshView mesh, const BuildSettings& settings) {
+  switch (method) {
+    case Method::Brute:
+      return BruteForce(mesh, {.simd = settings.simd});
+    case Method::Bvh2:
+      return build_bvh(2, mesh, settings);
+    case Method::Bvh4:
+      return build_bvh(4, mesh, settings);
+    case Method::Spheres:
+      return SphereTree(mesh, {.threads = settings.threads, .progress = settings.progress});
+    default:
+      return build_bvh(8, mesh, settings);
+  }
+}
+
+void draw(MeshView mesh, const Camera& camera, const BuildSettings& settings, RunResult& result) {
+  RasterOptions options;
+  options.threads = settings.threads;
+  options.simd = settings.simd;
+  options.progress = settings.progress;
+  const Stopwatch watch;
+  rasterize(mesh, camera, result.frame, options);
+  result.frame_seconds = watch.seconds();
 }
 
 }  // namespace
 
 const std::vector<MethodInfo>& all_methods() {
   static const std::vector<MethodInfo> kMethods = {
-      {Method::Brute, "brute", "every ray against every triangle; scalar, slow", false, false},
+      {Method::Brute, "brute", "every ray against every triangle; slow", true, false},
       {Method::Bvh2, "bvh2", "rays through the binary tree; scalar", false, true},
       {Method::Bvh4, "bvh4", "rays through the tree of 4 children a node", true, true},
       {Method::Bvh8, "bvh8", "rays through the tree of 8 children a node", true, true},
+      {Method::Spheres, "spheres", "rays through the binary tree with spheres for boxes; scalar", false,
+       false},
       {Method::Raster, "raster", "the rasterizer", true, true},
   };
   return kMethods;
@@ -127,30 +155,19 @@ RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threa
   const Simd simd = run.simd.value_or(Simd::Auto);
   const std::function<bool(double)> frame_progress = progress(run.name + ": frame");
   if (run.method == Method::Raster) {
-    RasterOptions options;
-    options.threads = threads;
-    options.simd = simd;
-    options.progress = frame_progress;
-    const Stopwatch watch;
-    rasterize(mesh, camera, result.frame, options);
-    result.frame_seconds = watch.seconds();
+    draw(mesh, camera, {simd, threads, frame_progress}, result);
     return result;
   }
-  const Stopwatch watch;
-  if (run.method == Method::Brute) {
-    const BruteForce brute(mesh);
-    result.build_seconds = watch.seconds();
-    timed_cast(brute, camera, threads, frame_progress, result);
-    return result;
-  }
-  BuildOptions options;
-  options.width = tree_width(run.method);
+  const Stopwatch build;
+  const Structure structure =
+      build_structure(run.method, mesh, {simd, threads, progress(run.name + ": build")});
+  result.build_seconds = build.seconds();
+  CastOptions options;
   options.threads = threads;
-  options.simd = simd;
-  options.progress = progress(run.name + ": build");
-  const Bvh bvh(mesh, options);
-  result.build_seconds = watch.seconds();
-  timed_cast(bvh, camera, threads, frame_progress, result);
+  options.progress = frame_progress;
+  const Stopwatch watch;
+  cast(structure, camera, result.frame, options);
+  result.frame_seconds = watch.seconds();
   return result;
 }
 

@@ -14,7 +14,7 @@
 namespace plumb::tool {
 
 /// A way to make a frame.
-enum class Method { Brute, Bvh2, Bvh4, Bvh8, Raster };
+enum class Method { Brute, Bvh2, Bvh4, Bvh8, Spheres, Raster };
 
 struct MethodInfo {
   Method method;

@@ -30,6 +30,7 @@
 #include "plumb/raster.h"
 #include "plumb/ray.h"
 #include "plumb/simd.h"
+#include "plumb/sphere_tree.h"
 #include "plumb/statistics.h"
 #include "plumb/structure.h"
 #include "plumb/surface.h"
