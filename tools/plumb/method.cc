@@ -5,12 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "plumb/brute_force.h"
-#include "plumb/bvh.h"
 #include "plumb/cast.h"
 #include "plumb/error.h"
 #include "plumb/raster.h"
-#include "plumb/sphere_tree.h"
+#include "plumb/structures.h"
 #include "text.h"
 
 namespace plumb::tool {
@@ -51,29 +49,29 @@ struct BuildSettings {
   std::function<bool(double)> progress;
 };
 
-Structure build_bvh(int width, MeshView mesh, const BuildSettings& settings) {
-  BuildOptions options;
-  options.width = width;
-  options.threads = settings.threads;
-  options.simd = settings.simd;
-  options.progress = settings.progress;
-  return Bvh(mesh, options);
-}
-
 // What makes the rays' frames; not for Method::Raster.
-Structure build_structure(Method method, MeshView mesh, const BuildSettings& settings) {
+Structure build(Method method, MeshView mesh, const BuildSettings& settings) {
+  StructureSettings all;
+  all.simd = settings.simd;
+  all.threads = settings.threads;
+  all.progress = settings.progress;
   switch (method) {
     case Method::Brute:
-      return BruteForce(mesh, {.simd = settings.simd});
-    case Method::Bvh2:
-      return build_bvh(2, mesh, settings);
-    case Method::Bvh4:
-      return build_bvh(4, mesh, settings);
+      all.kind = StructureKind::BruteForce;
+      break;
     case Method::Spheres:
-      return SphereTree(mesh, {.threads = settings.threads, .progress = settings.progress});
+      all.kind = StructureKind::SphereTree;
+      break;
+    case Method::Bvh2:
+      all.width = 2;
+      break;
+    case Method::Bvh4:
+      all.width = 4;
+      break;
     default:
-      return build_bvh(8, mesh, settings);
+      all.width = 8;
   }
+  return build_structure(mesh, all);
 }
 
 void draw(MeshView mesh, const Camera& camera, const BuildSettings& settings, RunResult& result) {
@@ -158,10 +156,9 @@ RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threa
     draw(mesh, camera, {simd, threads, frame_progress}, result);
     return result;
   }
-  const Stopwatch build;
-  const Structure structure =
-      build_structure(run.method, mesh, {simd, threads, progress(run.name + ": build")});
-  result.build_seconds = build.seconds();
+  const Stopwatch build_watch;
+  const Structure structure = build(run.method, mesh, {simd, threads, progress(run.name + ": build")});
+  result.build_seconds = build_watch.seconds();
   CastOptions options;
   options.threads = threads;
   options.progress = frame_progress;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "report/hard_run.h"
 #include "report/plot.h"
 #include "report/speed_run.h"
+#include "report/structures_run.h"
 #include "scene.h"
 #include "text.h"
 #include "verdict.h"
@@ -31,10 +33,11 @@ namespace plumb::tool {
 namespace {
 
 struct ReportOptions {
-  bool hard = false;
+  bool hard = false, structures = false;
   HardOptions run;
   std::optional<std::string> out;
   SpeedOptions speed;
+  std::size_t greatest = 1'000'000;  // of --structures
   std::string size = "640x360", simd = "auto";
   std::optional<std::string> html;
   bool json = false;
@@ -65,8 +68,11 @@ exact answers: on standard output, as JSON, or as a page (which needs gnuplot).
 --hard draws scenes of each hard case, asks every method on every instruction set and the peers of this
 build, and compares each answer with rational arithmetic.
 
+--structures times builds and rays of every structure, counts what they test, and says when to use which.
+
 Examples:
   plumb report --html report.html
+  plumb report --structures --out structures.md
   plumb report bunny.ply builtin:ties --simd all --json
   plumb report --hard --out hard-cases.md
   plumb report --hard --cases sliver,shared-edge --instances 100 --json
@@ -131,11 +137,13 @@ SpeedOptions speed_options(const ReportOptions& options) {
   return speed;
 }
 
+// Throws plumb::Error where nothing can be plotted: before the work, not after.
+void check_plots() { plot_svg({"", "", "", {{"", 1.0, 1.0, 0}}, {""}}); }
+
 ExitStatus run_speed(const ReportOptions& options) {
   SpeedReport report{
       speed_options(options), bench::machine_name(), bench::compiler_name(), bench::embree_version(), {}};
-  if (options.html)
-    plot_svg({"", "", "", {{"", 1.0, 1.0, 0}}, {""}});  // before the work: whether it can be drawn
+  if (options.html) check_plots();
   for (const std::string& scene : report.options.scenes) {
     report.scenes.push_back(measure_scene(scene, report.options, progress_bar(scene)));
     fmt::print(stderr, "measured {}\n", scene);
@@ -149,8 +157,53 @@ ExitStatus run_speed(const ReportOptions& options) {
   return report.agrees() ? kAgree : kDiffer;
 }
 
+// One of each kind that favours some structure; files can be added.
+const std::vector<std::string>& structure_scenes() {
+  static const std::vector<std::string> scenes = {
+      "builtin:cornell",        "builtin:soup:200000", "builtin:terrain:200000",   "builtin:grass:200000",
+      "builtin:spheres:200000", "builtin:quads",       "builtin:teapot-in-stadium"};
+  return scenes;
+}
+
+// FILE.md and, beside it, the plots as FILE-NAME.svg.
+void write_structures(const StructuresReport& report, const std::string& out) {
+  const std::filesystem::path path(out);
+  const std::string stem = path.stem().string();
+  const std::vector<NamedPlot> plots = structures_plots(report);
+  const std::string text = structures_markdown(report, plots, stem);
+  write_file(out, std::as_bytes(std::span(text)));
+  for (const NamedPlot& plot : plots) {
+    write_file((path.parent_path() / fmt::format("{}-{}.svg", stem, plot.name)).string(),
+               std::as_bytes(std::span(plot.svg)));
+  }
+  fmt::print(stderr, "wrote {} and {} plots beside it\n", out, plots.size());
+}
+
+ExitStatus run_structures(const ReportOptions& options) {
+  const SpeedOptions speed = speed_options(options);
+  StructuresOptions run;
+  run.scenes = structure_scenes();
+  run.scenes.insert(run.scenes.end(), options.speed.scenes.begin(), options.speed.scenes.end());
+  run.width = speed.width;
+  run.height = speed.height;
+  run.rounds = speed.rounds;
+  run.threads = speed.threads;
+  run.greatest = options.greatest;
+  if (run.greatest < 100) throw Error(fmt::format("plumb: --greatest {}: give 100 or more", run.greatest));
+  if (options.out) check_plots();
+  const StructuresReport report =
+      measure_structures(run, [](const std::string& scene) { fmt::print(stderr, "measuring {}\n", scene); });
+  if (options.out) write_structures(report, *options.out);
+  if (options.json) print_line(structures_json(report));
+  if (!options.out && !options.json) print_line(structures_markdown(report, {}, ""));
+  return report.agrees() ? kAgree : kDiffer;
+}
+
 ExitStatus run_report(const ReportOptions& options) {
   check_threads(options.run.threads.value_or(0));
+  if (options.hard && options.structures)
+    throw Error("plumb: --hard and --structures are two reports: give one");
+  if (options.structures) return run_structures(options);
   if (!options.hard) return run_speed(options);
   if (options.run.instances == 0) throw Error("plumb: --instances 0: give 1 or more");
   return run_hard(options);
@@ -177,6 +230,13 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("FILE.html");
   command->add_flag("--hard", options->hard,
                     "instead, hard cases: every method and peer against exact arithmetic");
+  command->add_flag("--structures", options->structures,
+                    "instead, every structure on scenes that favour one or another, and on the SCENEs");
+  command
+      ->add_option("--greatest", options->greatest,
+                   "--structures: triangles of the largest scene of a series that grows")
+      ->type_name("N")
+      ->capture_default_str();
   command->add_option("--seed", options->run.seed, "of what is drawn; another seed draws other instances")
       ->type_name("S")
       ->capture_default_str();

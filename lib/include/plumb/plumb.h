@@ -33,6 +33,7 @@
 #include "plumb/sphere_tree.h"
 #include "plumb/statistics.h"
 #include "plumb/structure.h"
+#include "plumb/structures.h"
 #include "plumb/surface.h"
 #include "plumb/topology.h"
 #include "plumb/version.h"

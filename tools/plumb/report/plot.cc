@@ -61,6 +61,8 @@ double floor_of(const std::vector<PlotPoint>& points) {
 
 std::string script_of(const Plot& plot, const fs::path& picture) {
   const double floor = floor_of(plot.points);
+  const bool has_zero =
+      std::any_of(plot.points.begin(), plot.points.end(), [](const PlotPoint& p) { return !(p.y > 0.0); });
   double least_x = plot.points.empty() ? 1.0 : plot.points.front().x, greatest_x = least_x;
   for (const PlotPoint& point : plot.points) {
     least_x = std::min(least_x, point.x);
@@ -69,10 +71,11 @@ std::string script_of(const Plot& plot, const fs::path& picture) {
   std::string script = fmt::format(
       "set terminal svg size 860,520 dynamic font 'sans-serif,13' background '#ffffff'\nset output '{}'\n"
       "set title {} noenhanced\nset xlabel {}\nset ylabel {}\nset logscale xy\nset grid lc rgb '#dddddd'\n"
-      "set key outside below horizontal noenhanced\nset xrange [{}:{}]\nset yrange [{}:]\n"
-      "set ytics add ('none' {})\nset format y '10^{{%L}}'\n",
+      "set key outside below horizontal noenhanced\nset xrange [{}:{}]\nset format xy '10^{{%L}}'\n",
       picture.string(), quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label), least_x / 1.5,
-      greatest_x * 2.2, floor / 2.0, floor);
+      greatest_x * (plot.lines ? 1.5 : 2.2));
+  if (!plot.lines) script += "set format x '%g'\n";
+  if (has_zero) script += fmt::format("set yrange [{}:]\nset ytics add ('none' {})\n", floor / 2.0, floor);
   for (std::size_t kind = 0; kind < plot.kinds.size(); ++kind) {
     script += fmt::format("$kind{} << EOD\n", kind);
     for (const PlotPoint& point : plot.points) {
@@ -81,7 +84,8 @@ std::string script_of(const Plot& plot, const fs::path& picture) {
     }
     script += "EOD\n";
   }
-  constexpr std::array<const char*, 4> kColours = {"#1b7837", "#d95f02", "#7570b3", "#666666"};
+  constexpr std::array<const char*, 8> kColours = {"#1b7837", "#d95f02", "#7570b3", "#666666",
+                                                   "#1f78b4", "#e7298a", "#a6761d", "#000000"};
   std::string separator = "plot ";
   for (std::size_t kind = 0; kind < plot.kinds.size(); ++kind) {
     const bool any = std::any_of(plot.points.begin(), plot.points.end(), [&](const PlotPoint& point) {
@@ -89,6 +93,12 @@ std::string script_of(const Plot& plot, const fs::path& picture) {
     });
     if (!any) continue;
     const char* const colour = kColours[kind % kColours.size()];
+    if (plot.lines) {
+      script += fmt::format("{}$kind{} using 1:2 with linespoints pt {} ps 0.7 lw 1.6 lc rgb '{}' title {}",
+                            separator, kind, 4 + kind, colour, quoted(plot.kinds[kind]));
+      separator = ", ";
+      continue;
+    }
     script += fmt::format(
         "{}$kind{} using 1:2 with points pt {} ps 0.9 lc rgb '{}' title {}, $kind{} using 1:2:3 with labels "
         "noenhanced left rotate by 25 offset 0.8,0.5 font ',11' tc rgb '{}' notitle",

@@ -17,6 +17,7 @@ struct Plot {
   /// Both axes are logarithmic; a y of 0 is drawn on a line of its own at the bottom, which says so.
   std::vector<PlotPoint> points;
   std::vector<std::string> kinds;  ///< what each kind is called in the legend
+  bool lines = false;              ///< joins the points of a kind, in their order; their names are left out
 };
 
 /// The plot as an <svg> element, drawn by the program gnuplot. Throws plumb::Error where there is none.
