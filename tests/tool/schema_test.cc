@@ -108,6 +108,8 @@ TEST_CASE("the JSON of info follows the schema, for meshes of every kind") {
 
 TEST_CASE("the JSON of soak and of the reports follows the schema") {
   CHECK(errors_of(printed("soak --seconds 0.3 --threads 1"), "soak") == Errors{});
+  CHECK(errors_of(printed("report --structures builtin:cornell --greatest 100 --size 16x9 --rounds 1"),
+                  "report-structures") == Errors{});
   CHECK(errors_of(printed("report --hard --cases sliver,no-triangle --instances 3"), "report-hard") ==
         Errors{});
   CHECK(errors_of(printed("report builtin:cornell --size 32x18 --rounds 1"), "report") == Errors{});

@@ -157,7 +157,7 @@ ExitStatus run_speed(const ReportOptions& options) {
   return report.agrees() ? kAgree : kDiffer;
 }
 
-// One of each kind that favours some structure; files can be added.
+// One of each kind that favours some structure.
 const std::vector<std::string>& structure_scenes() {
   static const std::vector<std::string> scenes = {
       "builtin:cornell",        "builtin:soup:200000", "builtin:terrain:200000",   "builtin:grass:200000",
@@ -182,8 +182,7 @@ void write_structures(const StructuresReport& report, const std::string& out) {
 ExitStatus run_structures(const ReportOptions& options) {
   const SpeedOptions speed = speed_options(options);
   StructuresOptions run;
-  run.scenes = structure_scenes();
-  run.scenes.insert(run.scenes.end(), options.speed.scenes.begin(), options.speed.scenes.end());
+  run.scenes = options.speed.scenes.empty() ? structure_scenes() : options.speed.scenes;
   run.width = speed.width;
   run.height = speed.height;
   run.rounds = speed.rounds;
@@ -230,8 +229,9 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("FILE.html");
   command->add_flag("--hard", options->hard,
                     "instead, hard cases: every method and peer against exact arithmetic");
-  command->add_flag("--structures", options->structures,
-                    "instead, every structure on scenes that favour one or another, and on the SCENEs");
+  command->add_flag(
+      "--structures", options->structures,
+      "instead, every structure on the SCENEs or some that favour one or another, and on growing ones");
   command
       ->add_option("--greatest", options->greatest,
                    "--structures: triangles of the largest scene of a series that grows")

@@ -17,7 +17,7 @@ struct StructuresOptions {
   int width = 320, height = 180;
   int rounds = 3;
   int threads = 1;
-  std::size_t greatest = 1'000'000;  ///< triangles of the largest of a series
+  std::size_t greatest = 1'000'000;  ///< triangles of the largest of a series, at least 100
 };
 
 /// What a kind of rays takes.
