@@ -103,15 +103,21 @@ struct DoubleStage {
   // further than the error from 2^28, the midpoint of two floats. The error must also be small
   // against a quarter of a float's last place, lest it reach across a power of two, where floats
   // lie twice as close.
+  //
+  // Error and distance are compared without another division, times |t_num den|, whose factors are asked to
+  // be so large and small that nothing underflows or overflows.
   bool certain_depth(float& t) const {
-    double error_ulps = 0.0;
-    const double q = depth_quotient(error_ulps);
+    const double q = t_num / den;
     const double magnitude = std::fabs(q);
-    if (!(magnitude > 0x1p-125 && magnitude < 0x1p127)) return false;
-    if (!(error_ulps < 0x1p26)) return false;
+    const double num_size = std::fabs(t_num), den_size = std::fabs(den);
+    if (!(magnitude > 0x1p-125 && magnitude < 0x1p127 && num_size > 0x1p-400 && num_size < 0x1p400 &&
+          den_size > 0x1p-400 && den_size < 0x1p400))
+      return false;
+    const double product = num_size * den_size;
+    const double error = (0x1p53 * 1.03) * (t_num_error * den_size + den_error * num_size);
     const auto low = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(q) & 0x1fffffffu);
-    const auto distance = static_cast<double>(std::abs(low - 0x10000000));
-    if (!(distance > error_ulps)) return false;
+    const auto distance = static_cast<double>(std::abs(low - 0x10000000)) - 3.0;
+    if (!(error < 0x1p26 * product && error < distance * product)) return false;
     t = round_to_float(q);
     return true;
   }

@@ -67,10 +67,12 @@ HWY_INLINE void FilterValues(D d, const FilterRay& ray, const Block<W>& block, s
 //
 // `possible` lanes may be hits nearer than FilterRay::limit and need a decision; of these, `certain`
 // lanes are covered, with a denominator that is not zero: only their depth is open. All others are
-// certainly misses or certainly farther than the limit.
+// certainly misses or certainly farther than the limit. `along` is T, negated where den is negative, and
+// `size` |den|; each is off by at most its error.
 template <class D, int W, template <int> class Block>
 HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block, size_t offset,
-                                hn::Mask<D>& possible, hn::Mask<D>& certain) {
+                                hn::Mask<D>& possible, hn::Mask<D>& certain, hn::Vec<D>& along,
+                                hn::Vec<D>& along_error, hn::Vec<D>& size, hn::Vec<D>& size_error) {
   using V = hn::Vec<D>;
   V edge0, edge1, edge2, den, t_num, reach;
   FilterValues(d, ray, block, offset, edge0, edge1, edge2, den, t_num, reach);
@@ -87,14 +89,39 @@ HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block
   // Too far: T / den > limit for certain, or T / den < 0 for certain. In the first, |T| > limit |den| by
   // more than the errors; the limit carries slack for the rounding of this comparison itself.
   const V extent2 = hn::Mul(extent, extent);
-  const V t_error = hn::MulAdd(hn::Mul(reach, hn::Set(d, ray.depth_scale)), extent2, hn::Set(d, 0x1p-120f));
-  const V den_error = hn::Mul(extent2, hn::Set(d, ray.den_scale));
-  const V den_magnitude = hn::Abs(den);
-  const V t_along = hn::Xor(t_num, hn::And(hn::SignBit(d), den));  // T, negated where den is negative
+  along_error = hn::MulAdd(hn::Mul(reach, hn::Set(d, ray.depth_scale)), extent2, hn::Set(d, 0x1p-120f));
+  size_error = hn::Mul(extent2, hn::Set(d, ray.den_scale));
+  size = hn::Abs(den);
+  along = hn::Xor(t_num, hn::And(hn::SignBit(d), den));
   const auto beyond =
-      hn::Gt(hn::Sub(t_along, t_error), hn::Mul(hn::Set(d, ray.limit), hn::Add(den_magnitude, den_error)));
-  const auto behind = hn::And(hn::Lt(t_along, hn::Neg(t_error)), hn::Gt(den_magnitude, den_error));
+      hn::Gt(hn::Sub(along, along_error), hn::Mul(hn::Set(d, ray.limit), hn::Add(size, size_error)));
+  const auto behind = hn::And(hn::Lt(along, hn::Neg(along_error)), hn::Gt(size, size_error));
   possible = hn::Not(hn::Or(missed, hn::Or(beyond, behind)));
+}
+
+// The same for who does not ask about depths.
+template <class D, int W, template <int> class Block>
+HWY_INLINE void FilterTriangles(D d, const FilterRay& ray, const Block<W>& block, size_t offset,
+                                hn::Mask<D>& possible, hn::Mask<D>& certain) {
+  hn::Vec<D> along, along_error, size, size_error;
+  FilterTriangles(d, ray, block, offset, possible, certain, along, along_error, size, size_error);
+}
+
+// Bounds of the exact t = T / den of FilterTriangles' lanes; lanes where they say nothing get low = -1.
+//
+// T lies within along_error of `along`, |den| within size_error of `size`, so t lies between the quotients of
+// their ends. Each of those is rounded three times, off by less than 4 * 2^-24 of itself in all; 2^-20 makes
+// up for that many times over as long as no quotient underflows, which low >= 2^-100 excludes; a sum or
+// difference that is subnormal is exact. NaN and infinite errors fail the comparisons.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void DepthBounds(D d, V along, V along_error, V size, V size_error, V& low, V& high) {
+  low = hn::Mul(hn::Div(hn::Sub(along, along_error), hn::Add(size, size_error)), hn::Set(d, 1.0f - 0x1p-20f));
+  high =
+      hn::Mul(hn::Div(hn::Add(along, along_error), hn::Sub(size, size_error)), hn::Set(d, 1.0f + 0x1p-20f));
+  const auto usable =
+      hn::And(hn::And(hn::Gt(size, size_error), hn::Gt(along, along_error)),
+              hn::And(hn::Ge(low, hn::Set(d, 0x1p-100f)), hn::Le(high, hn::Set(d, 0x1p120f))));
+  low = hn::IfThenElse(usable, low, hn::Set(d, -1.0f));
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

@@ -37,6 +37,4 @@ void FilterRay::set_limit(float t) {
   limit = depth_limit(t) * (1.0f + 0x1p-20f);
 }
 
-float depth_limit(float t) { return std::nextafter(t, kInfinity); }
-
 }  // namespace plumb::detail

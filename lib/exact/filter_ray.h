@@ -1,5 +1,9 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <limits>
+
 #include "plumb/ray.h"
 
 namespace plumb::detail {
@@ -23,6 +27,11 @@ struct FilterRay {
 
 /// The least float that no exact value exceeds which rounds to `t` or below: the next float up, which
 /// is above the midpoint. Infinity stays. `t` is not negative.
-float depth_limit(float t);
+inline float depth_limit(float t) {
+  // Floats above 0 are in the order of their bits.
+  return t < std::numeric_limits<float>::infinity()
+             ? std::bit_cast<float>(std::bit_cast<std::uint32_t>(t) + 1u)
+             : t;
+}
 
 }  // namespace plumb::detail

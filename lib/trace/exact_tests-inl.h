@@ -1,6 +1,7 @@
 // The exact arithmetic: boxes are culled conservatively, a leaf's triangles are tested W at once in float
 // with a proven bound, and lanes that the float stage leaves open are decided one at a time in double
-// or by expansions. Included once per Highway target.
+// or by expansions. So are depths, but only where their float bounds do not say enough: of covered triangles
+// with bounds apart only the nearest's is ever computed (trace/query.h). Included once per Highway target.
 
 #if defined(PLUMB_TRACE_EXACT_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLUMB_TRACE_EXACT_TESTS_INL_H_
@@ -54,30 +55,40 @@ class ExactTests {
   template <class Query>
   HWY_INLINE bool leaf(const TriangleBlock<W>* block, std::uint32_t count, Query& query) {
     const hn::CappedTag<float, W> d;
+    using V = hn::Vec<decltype(d)>;
     for (;; ++block) {
       std::uint32_t possible_bits = 0;
       std::uint32_t certain_bits = 0;
+      HWY_ALIGN float low[W];
+      HWY_ALIGN float high[W];
       for (size_t lane = 0; lane < static_cast<size_t>(W); lane += hn::Lanes(d)) {
         hn::Mask<decltype(d)> possible;
         hn::Mask<decltype(d)> certain;
-        FilterTriangles(d, filter_, *block, lane, possible, certain);
-        possible_bits |= MaskBits(d, possible) << lane;
+        V along, along_error, size, size_error;
+        FilterTriangles(d, filter_, *block, lane, possible, certain, along, along_error, size, size_error);
+        const std::uint32_t bits = MaskBits(d, possible);
+        if (bits == 0) continue;
+        possible_bits |= bits << lane;
         certain_bits |= MaskBits(d, certain) << lane;
+        if constexpr (Query::kBoundsDepth) {
+          V least, greatest;
+          DepthBounds(d, along, along_error, size, size_error, least, greatest);
+          hn::Store(least, d, low + lane);
+          hn::Store(greatest, d, high + lane);
+        }
       }
       if (count < static_cast<std::uint32_t>(W)) possible_bits &= (1u << count) - 1u;
       for (; possible_bits != 0; possible_bits &= possible_bits - 1) {
         const auto lane = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(possible_bits));
-        const Triangle triangle = TriangleOf(*block, lane);
-        float t = 0.0f;
-        if ((certain_bits >> lane & 1u) != 0) {
-          // May be infinite, which counts on no ray: a finite t wins everywhere else, and tmax = inf is
-          // excluded by the definition.
-          t = line_depth(ray_.origin, ray_.direction, triangle);
-          if (!(t < std::numeric_limits<float>::infinity())) continue;
-        } else if (!line_hit(ray_.origin, ray_.direction, triangle, t)) {
-          continue;
+        const bool covered = (certain_bits >> lane & 1u) != 0;
+        if constexpr (Query::kBoundsDepth) {
+          const LaneTriangle triangle{&block->vertex[0][0][lane], W, block->id[lane]};
+          if (covered && query.take_bounds(low[lane], high[lane], triangle)) {
+            if (query.done()) return true;
+            continue;
+          }
         }
-        if (query.take(t, block->id[lane])) return true;
+        if (offer(*block, lane, covered, query)) return true;
       }
       if (count <= static_cast<std::uint32_t>(W)) break;
       count -= static_cast<std::uint32_t>(W);
@@ -87,6 +98,22 @@ class ExactTests {
   }
 
  private:
+  // Decides about one lane; true when the query is done.
+  template <class Query>
+  HWY_INLINE bool offer(const TriangleBlock<W>& block, size_t lane, bool covered, Query& query) const {
+    const Triangle triangle = TriangleOf(block, lane);
+    float t = 0.0f;
+    if (covered) {
+      // May be infinite, which counts on no ray: a finite t wins everywhere else, and tmax = inf is
+      // excluded by the definition.
+      t = line_depth(ray_.origin, ray_.direction, triangle);
+      if (!(t < std::numeric_limits<float>::infinity())) return false;
+    } else if (!line_hit(ray_.origin, ray_.direction, triangle, t)) {
+      return false;
+    }
+    return query.take(t, block.id[lane]);
+  }
+
   const Ray& ray_;
   BoxRay box_ray_;
   std::optional<ExactBoxRay> exact_ray_;

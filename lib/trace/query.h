@@ -26,10 +26,35 @@ struct NoCounts {
   void count_triangles(std::size_t) {}
 };
 
+/// A triangle in a lane of a block: its nine coordinates lie `stride` floats apart.
+struct LaneTriangle {
+  const float* corner = nullptr;
+  std::size_t stride = 0;
+  std::uint32_t id = kNone;
+
+  Triangle triangle() const {
+    const auto vertex = [this](std::size_t v) {
+      return glm::vec3(corner[3 * v * stride], corner[(3 * v + 1) * stride], corner[(3 * v + 2) * stride]);
+    };
+    return {vertex(0), vertex(1), vertex(2)};
+  }
+};
+
+// A query with kBoundsDepth can be offered a triangle that the line meets for certain with float bounds of
+// its exact t, 0 < low <= t <= high (low is not positive where there are none), before its t is computed.
+// Rounding is monotonic, so RN32(t) lies between them too. take_bounds() returns false where they do not say
+// enough.
+
 /// The smallest (t, id).
+///
+/// Triangles offered by bounds wait: only while their bounds overlap is t computed before settle(). So a ray
+/// that meets surface after surface on its way to the nearest pays for one exact depth.
 class ClosestQuery : public NoCounts {
  public:
-  explicit ClosestQuery(const Ray& ray) : ray_(ray), limit_(depth_limit(ray.tmax)) {}
+  static constexpr bool kBoundsDepth = true;
+
+  explicit ClosestQuery(const Ray& ray)
+      : ray_(ray), tmin_(ray.tmin > 0.0f ? ray.tmin : 0.0f), limit_(depth_limit(ray.tmax)) {}
 
   /// No exact t above this matters.
   float limit() const { return limit_; }
@@ -37,16 +62,40 @@ class ClosestQuery : public NoCounts {
   bool take(float t, std::uint32_t id) {
     if (depth_counts(ray_, t) && hit_before(t, id, best_)) {
       best_ = {t, id};
-      limit_ = depth_limit(t);
+      limit_ = std::min(limit_, depth_limit(t));
+      if (t < low_) waiting_.id = kNone;  // farther for certain
     }
     return false;
+  }
+  bool take_bounds(float low, float high, const LaneTriangle& triangle) {
+    if (!(low > tmin_) || !(high <= ray_.tmax)) return false;
+    if (low > best_.t) return true;
+    if (waiting_.id != kNone) {
+      if (low > high_) return true;
+      if (!(high < low_)) return false;
+    }
+    waiting_ = triangle;
+    low_ = low;
+    high_ = high;
+    limit_ = std::min(limit_, depth_limit(high));
+    return true;
+  }
+  static constexpr bool done() { return false; }
+  /// Ends the traversal.
+  void settle() {
+    if (waiting_.id == kNone) return;
+    const std::uint32_t id = waiting_.id;
+    take(line_depth(ray_.origin, ray_.direction, waiting_.triangle()), id);
   }
   Hit result() const { return best_; }
 
  private:
   const Ray& ray_;
   Hit best_;
+  float tmin_;
   float limit_;
+  float low_ = 0.0f, high_ = 0.0f;  // of the one that waits
+  LaneTriangle waiting_;
 };
 
 /// ClosestQuery, with what it takes to answer it.
@@ -63,16 +112,25 @@ class CountingQuery : public ClosestQuery {
 /// Whether any hit counts.
 class AnyQuery : public NoCounts {
  public:
-  explicit AnyQuery(const Ray& ray) : ray_(ray), limit_(depth_limit(ray.tmax)) {}
+  static constexpr bool kBoundsDepth = true;
+
+  explicit AnyQuery(const Ray& ray)
+      : ray_(ray), tmin_(ray.tmin > 0.0f ? ray.tmin : 0.0f), limit_(depth_limit(ray.tmax)) {}
   float limit() const { return limit_; }
   bool take(float t, std::uint32_t) {
     hit_ = depth_counts(ray_, t);
     return hit_;
   }
+  bool take_bounds(float low, float high, const LaneTriangle&) {
+    hit_ = low > tmin_ && high <= ray_.tmax;
+    return hit_ || (low > 0.0f && (high <= tmin_ || low > ray_.tmax));
+  }
+  bool done() const { return hit_; }
   bool result() const { return hit_; }
 
  private:
   const Ray& ray_;
+  float tmin_;
   float limit_;
   bool hit_ = false;
 };
@@ -80,6 +138,8 @@ class AnyQuery : public NoCounts {
 /// Every hit that counts, unsorted.
 class AllQuery : public NoCounts {
  public:
+  static constexpr bool kBoundsDepth = false;
+
   AllQuery(const Ray& ray, std::vector<Hit>& hits) : ray_(ray), limit_(depth_limit(ray.tmax)), hits_(hits) {}
   float limit() const { return limit_; }
   bool take(float t, std::uint32_t id) {
@@ -120,6 +180,7 @@ QueryTable make_query_table() {
     for (std::size_t i = 0; i < count; ++i) {
       ClosestQuery query(rays[i]);
       if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
+      query.settle();
       hits[i] = query.result();
     }
   };

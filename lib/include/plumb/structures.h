@@ -21,7 +21,7 @@ enum class StructureKind {
 
 /// What builds a structure of any kind. Each kind takes what it knows and ignores the rest.
 struct StructureSettings {
-  StructureKind kind = StructureKind::Bvh;
+  StructureKind kind = StructureKind::Bvh;  ///< see there
   /// Of a Bvh: as BuildOptions::quality and BuildOptions::width.
   Quality quality = Quality::Balanced;
   int width = 0;  ///< see quality
