@@ -32,9 +32,4 @@ FilterRay::FilterRay(const Ray& ray, float greatest)
   depth_scale = in_range ? static_cast<float>(8.2 * kU) : kInfinity;
 }
 
-void FilterRay::set_limit(float t) {
-  // Four operations on each side of the comparison, each off by at most 2^-24 of itself.
-  limit = depth_limit(t) * (1.0f + 0x1p-20f);
-}
-
 }  // namespace plumb::detail

@@ -9,6 +9,7 @@
 #endif
 
 #include <cstdint>
+#include <utility>
 
 #include "build/binary_tree.h"
 #include "hwy/highway.h"
@@ -46,14 +47,32 @@ HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query) {
       query.count_volumes(W);
       HWY_ALIGN float near[W];
       std::uint32_t met = tests.boxes(node, query.limit(), near);
-      // Insert by distance, the nearest on top.
-      WideTraversalEntry* const base = top;
-      for (; met != 0; met &= met - 1) {
-        const auto i = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(met));
-        const WideTraversalEntry entry{near[i], node.child[i], node.count[i]};
-        WideTraversalEntry* place = top++;
-        for (; place != base && place[-1].near < entry.near; --place) *place = place[-1];
-        *place = entry;
+      const auto entry_of = [&](std::uint32_t bits) HWY_ATTR -> WideTraversalEntry {
+        const auto i = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+        return {near[i], node.child[i], node.count[i]};
+      };
+      if (met != 0) {
+        // Mostly one or two are met, and the nearest comes next: it need not go by the stack.
+        WideTraversalEntry nearest = entry_of(met);
+        met &= met - 1;
+        if (met == 0) {
+          current = nearest;
+          continue;
+        }
+        WideTraversalEntry second = entry_of(met);
+        met &= met - 1;
+        if (second.near < nearest.near) std::swap(nearest, second);
+        WideTraversalEntry* const base = top;
+        *top++ = second;
+        for (; met != 0; met &= met - 1) {
+          WideTraversalEntry entry = entry_of(met);
+          if (entry.near < nearest.near) std::swap(nearest, entry);
+          WideTraversalEntry* place = top++;
+          for (; place != base && place[-1].near < entry.near; --place) *place = place[-1];
+          *place = entry;
+        }
+        current = nearest;
+        continue;
       }
     }
     do {
