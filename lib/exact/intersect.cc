@@ -84,12 +84,6 @@ bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(
 
 }  // namespace
 
-bool ray_is_valid(const Ray& ray) {
-  const glm::vec3& d = ray.direction;
-  return is_finite(ray.origin) && is_finite(d) && (d.x != 0.0f || d.y != 0.0f || d.z != 0.0f) &&
-         !std::isnan(ray.tmin) && !std::isnan(ray.tmax);
-}
-
 bool triangle_is_finite(const Triangle& triangle) {
   return is_finite(triangle.v0) && is_finite(triangle.v1) && is_finite(triangle.v2);
 }

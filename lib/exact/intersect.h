@@ -16,7 +16,14 @@ struct Triangle {
 
 /// Whether the ray can see anything: no NaN, finite origin and direction, a direction that is not
 /// zero.
-bool ray_is_valid(const Ray& ray);
+inline bool ray_is_valid(const Ray& ray) {
+  const glm::vec3& o = ray.origin;
+  const glm::vec3& d = ray.direction;
+  // A product with 0 is NaN for what is not finite, and what is NaN is not equal to itself.
+  const float zero = ((o.x * 0.0f + o.y * 0.0f) + (o.z * 0.0f + d.x * 0.0f)) + (d.y * 0.0f + d.z * 0.0f);
+  return zero == 0.0f && (d.x != 0.0f || d.y != 0.0f || d.z != 0.0f) && ray.tmin == ray.tmin &&
+         ray.tmax == ray.tmax;
+}
 
 /// Whether all nine coordinates are finite.
 bool triangle_is_finite(const Triangle& triangle);

@@ -39,24 +39,6 @@ bool ExactBoxRay::meets(const float lo[3], const float hi[3], float limit, float
   return true;
 }
 
-BoxRay::BoxRay(const Ray& ray, float greatest)
-    : origin{ray.origin.x, ray.origin.y, ray.origin.z},
-      tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f),
-      in_range(greatest < 0x1p60f) {
-  const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    const float magnitude = std::fabs(direction[axis]);
-    // Then |p - o| < 2^62, the inverses are normal and the products below 2^124.
-    in_range = in_range && magnitude > 0x1p-60f && magnitude < 0x1p60f && std::fabs(origin[axis]) < 0x1p60f;
-    const double inverse = 1.0 / double{direction[axis]};
-    inv_near[axis] = static_cast<float>(inverse * (1.0 - 4.0 * 0x1p-24));
-    inv_far[axis] = static_cast<float>(inverse * (1.0 + 4.0 * 0x1p-24));
-    const bool forward = direction[axis] > 0.0f;
-    near_row[axis] = 2 * axis + (forward ? 0 : 1);
-    far_row[axis] = 2 * axis + (forward ? 1 : 0);
-  }
-}
-
 template <int W>
 std::uint32_t meet_children(const WideNode<W>& node, const ExactBoxRay& ray, float limit, float* near) {
   std::uint32_t met = 0;

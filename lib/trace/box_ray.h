@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "build/binary_tree.h"
@@ -40,18 +41,18 @@ class ExactBoxRay {
 /// A ray against the SoA boxes of wide nodes in float.
 ///
 /// For a plane p of an axis, with s = (p - o) / d the exact parameter, the computed product
-/// fl(fl(p - o) * inverse) has two roundings and the inverse one of its own: a relative error below
-/// 3.01 u, u = 2^-24. The inverses carry a factor 1 - 4 u for near planes and 1 + 4 u for far ones, so
-/// that where s > 0 the near value is below it and the far value above. Where s < 0, a near value is
-/// at most 0 (and the comparison starts at max(tmin, 0)), and a far value is negative, as it should be: no
-/// point of the box lies ahead. A product that underflows is off by up to 2^-150, which the
-/// comparison allows for (kUnderflow), as does depth_limit() for a near value kept for later.
+/// fl(fl(p - o) * inverse) has two roundings; the inverse has its own and that of the factor it carries, 1 -
+/// 6 u for near planes and 1 + 6 u for far ones, u = 2^-24. The four are a relative error below 4.01 u, so
+/// that where s > 0 the near value is below it and the far value above. Where s < 0, a near value is at most
+/// 0 (and the comparison starts at max(tmin, 0)), and a far value is negative, as it should be: no point of
+/// the box lies ahead. A product that underflows is off by up to 2^-150, which the comparison allows for
+/// (kUnderflow), as does depth_limit() for a near value kept for later.
 struct BoxRay {
   float origin[3];
   float inv_near[3];
   float inv_far[3];
-  int near_row[3];  ///< rows of WideNode::bounds
-  int far_row[3];
+  std::uint32_t near_row[3];  ///< rows of WideNode::bounds
+  std::uint32_t far_row[3];
   float tmin;     ///< max(tmin, 0)
   bool in_range;  ///< the analysis above holds: no zero in the direction, nothing overflows
 
@@ -59,7 +60,26 @@ struct BoxRay {
   /// makes up for products that underflowed.
   static constexpr float kUnderflow = 0x1p-120f;
 
-  BoxRay(const Ray& ray, float greatest);
+  static constexpr float kNearFactor = 1.0f - 6.0f * 0x1p-24f;
+  static constexpr float kFarFactor = 1.0f + 6.0f * 0x1p-24f;
+
+  BoxRay(const Ray& ray, float greatest)
+      : origin{ray.origin.x, ray.origin.y, ray.origin.z},
+        tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f),
+        in_range(greatest < 0x1p60f) {
+    const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const float magnitude = std::fabs(direction[axis]);
+      // Then |p - o| < 2^62, the inverses are normal and the products below 2^124.
+      in_range = in_range && magnitude > 0x1p-60f && magnitude < 0x1p60f && std::fabs(origin[axis]) < 0x1p60f;
+      const float inverse = 1.0f / direction[axis];
+      inv_near[axis] = inverse * kNearFactor;
+      inv_far[axis] = inverse * kFarFactor;
+      const std::uint32_t backward = direction[axis] > 0.0f ? 0 : 1;
+      near_row[axis] = 2 * axis + backward;
+      far_row[axis] = 2 * axis + (1 - backward);
+    }
+  }
 
   float near_origin(int axis) const { return origin[axis]; }
   float far_origin(int axis) const { return origin[axis]; }

@@ -11,7 +11,7 @@ FastRay::FastRay(const Ray& ray)
       direction{ray.direction.x, ray.direction.y, ray.direction.z},
       tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f) {
   constexpr float kGreatest = std::numeric_limits<float>::max();
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
     const bool forward = !std::signbit(direction[axis]);
     inverse[axis] = std::clamp(1.0f / direction[axis], -kGreatest, kGreatest);
     near_row[axis] = 2 * axis + (forward ? 0 : 1);

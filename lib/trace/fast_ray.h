@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "plumb/ray.h"
 
 namespace plumb::detail {
@@ -9,9 +11,9 @@ namespace plumb::detail {
 struct FastRay {
   float origin[3];
   float direction[3];
-  float inverse[3];  ///< of the direction; at most the greatest float, so that no product is NaN
-  int near_row[3];   ///< rows of WideNode::bounds
-  int far_row[3];
+  float inverse[3];           ///< of the direction; at most the greatest float, so that no product is NaN
+  std::uint32_t near_row[3];  ///< rows of WideNode::bounds
+  std::uint32_t far_row[3];
   float tmin;  ///< max(tmin, 0)
 
   /// BoxRay's slack, which this test has not.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include "build/binary_tree.h"
 #include "exact/intersect.h"
+
 #include "plumb/ray.h"
 
 namespace plumb::detail {
@@ -36,7 +38,7 @@ struct WatertightRay {
 
   float box_origin_near[3], box_origin_far[3];  ///< by axis, like the rest
   float inv_near[3], inv_far[3];
-  int near_row[3], far_row[3];
+  std::uint32_t near_row[3], far_row[3];
   float tmin;     ///< max(tmin, 0)
   bool in_range;  ///< the analysis holds, nothing overflows: coordinates below 2^40, d_kz beyond 2^-+60
 

@@ -107,12 +107,12 @@ bool is_exact(const Touch& touch, const Touch& scaled_touch, int coordinates, in
   return true;
 }
 
-// The test with factors 1 -+ slack 2^-24 in place of 1 -+ 4 2^-24.
+// The test with factors 1 -+ slack 2^-24 in place of 1 -+ 6 2^-24, of an inverse that has been rounded.
 bool is_met(Simd simd, const Touch& touch, double slack, float& near) {
   BoxRay ray(touch.ray, 0x1p56f);
   REQUIRE(ray.in_range);
   for (int axis = 0; axis < 3; ++axis) {
-    const double inverse = 1.0 / double{touch.ray.direction[axis]};
+    const double inverse = double{1.0f / touch.ray.direction[axis]};
     ray.inv_near[axis] = static_cast<float>(inverse * (1.0 - slack * 0x1p-24));
     ray.inv_far[axis] = static_cast<float>(inverse * (1.0 + slack * 0x1p-24));
   }
@@ -134,7 +134,7 @@ TEST_SUITE("attack: boxes") {
       for (int i = 0; i < hard::effort(200'000); ++i) {
         const Touch touch = draw(random);
         float near = 0.0f;
-        const bool met = is_met(simd, touch, 4.0, near);
+        const bool met = is_met(simd, touch, 6.0, near);
         CHECK(met);
         // near is a lower bound: near * den <= num, both exact in double.
         CHECK(double{near} * touch.den <= touch.num);
@@ -145,9 +145,9 @@ TEST_SUITE("attack: boxes") {
         most_slack = std::max(most_slack, needed);
       }
       MESSAGE(std::string(simd_name(simd))
-              << ": of the slack of 4 units, a touched box needs at most " << most_slack << "; without any, "
+              << ": of the slack of 6 units, a touched box needs at most " << most_slack << "; without any, "
               << lost_without << " boxes are lost");
-      CHECK(most_slack <= 4.0);
+      CHECK(most_slack <= 6.0);
       CHECK(most_slack > 0.8);
       CHECK(lost_without > 10'000 / static_cast<int>(hard::kEffortDivisor));
     }
