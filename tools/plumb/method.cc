@@ -9,6 +9,7 @@
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
 #include "plumb/error.h"
+#include "plumb/kd_tree.h"
 #include "plumb/raster.h"
 #include "plumb/sphere_tree.h"
 #include "text.h"
@@ -69,6 +70,9 @@ Structure build_structure(Method method, MeshView mesh, const BuildSettings& set
       return build_bvh(2, mesh, settings);
     case Method::Bvh4:
       return build_bvh(4, mesh, settings);
+    case Method::KdTree:
+      return KdTree(mesh,
+                    {.threads = settings.threads, .simd = settings.simd, .progress = settings.progress});
     case Method::Spheres:
       return SphereTree(mesh, {.threads = settings.threads, .progress = settings.progress});
     default:
@@ -94,6 +98,7 @@ const std::vector<MethodInfo>& all_methods() {
       {Method::Bvh2, "bvh2", "rays through the binary tree; scalar", false, true},
       {Method::Bvh4, "bvh4", "rays through the tree of 4 children a node", true, true},
       {Method::Bvh8, "bvh8", "rays through the tree of 8 children a node", true, true},
+      {Method::KdTree, "kdtree", "rays through a k-d tree", true, false},
       {Method::Spheres, "spheres", "rays through the binary tree with spheres for boxes; scalar", false,
        false},
       {Method::Raster, "raster", "the rasterizer", true, true},
