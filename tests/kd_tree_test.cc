@@ -188,7 +188,7 @@ std::size_t differences(const Tree& tree, const Structure& expected, const std::
 TEST_SUITE("k-d tree") {
   TEST_CASE("on every kind of scene, no point of a triangle is lost, whatever the costs and depth") {
     detail::KdBuildOptions eager;
-    eager.node_cost = 0.01;
+    eager.node_cost = 0.001;
     detail::KdBuildOptions shallow;
     shallow.max_depth = 5;
     detail::KdBuildOptions lean;
@@ -212,7 +212,7 @@ TEST_SUITE("k-d tree") {
         Random random(seed);
         const TriangleMesh mesh = kind.make(random);
         detail::KdBuildOptions options;
-        options.node_cost = 0.01;
+        options.node_cost = 0.001;
         const KdTreeParts tree = build(mesh, options);
         CHECK(fault_of(tree, mesh, options.max_depth) == "");
         if (!tree.nodes.empty()) CHECK(lost_points(tree, mesh, seed) == 0);
@@ -269,11 +269,11 @@ TEST_SUITE("k-d tree") {
       CHECK(statistics.leaf_fill <= 1.0);
       CHECK(statistics.sah_cost > 1.0);
       CHECK(statistics.build_seconds > 0.0);
-      // A node takes 8 bytes and a block of four triangles 176.
+      // A node takes 8 bytes and a block of eight triangles 352.
       CHECK(statistics.bytes >= 8 * statistics.nodes + 44 * statistics.references);
       const TestCounts counts = tree.count_tests(rays);
       CHECK(counts.rays == rays.size());
-      CHECK(counts.volumes >= rays.size());
+      CHECK(counts.volumes > rays.size() / 2);
       CHECK(counts.triangles > 0);
     }
   }
@@ -302,7 +302,7 @@ TEST_SUITE("k-d tree") {
          {build_scenes::repeated(million), build_scenes::concentric(million / 10)}) {
       const KdTree tree(mesh);
       const std::size_t count = mesh.triangles.size();
-      CHECK(tree.statistics().references <= 13 * count + 64);
+      CHECK(tree.statistics().references <= 9 * count + 64);
       const Ray ray{{0.5f, 0.75f, 5.0f}, 0.0f, {0, 0, -1}};
       const Bvh boxes(mesh);
       CHECK(tree.closest(ray) == boxes.closest(ray));
