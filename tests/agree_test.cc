@@ -12,6 +12,7 @@
 #include "oracle/oracle.h"
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
+#include "plumb/kd_tree.h"
 #include "plumb/simd.h"
 #include "support/effort.h"
 #include "support/fp_modes.h"
@@ -139,6 +140,13 @@ TEST_SUITE("agree: queries") {
         CAPTURE(width);
         for (const Answered& a : answered_cases()) check_queries(Bvh(a.c.mesh, options), a);
       }
+    }
+  }
+
+  TEST_CASE("k-d trees on every instruction set agree with the oracle") {
+    for (const Simd simd : simd_targets()) {
+      CAPTURE(simd_name(simd));
+      for (const Answered& a : answered_cases()) check_queries(KdTree(a.c.mesh, {.simd = simd}), a);
     }
   }
 

@@ -10,6 +10,7 @@
 #include "plumb/builtin.h"
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
+#include "plumb/kd_tree.h"
 #include "plumb/raster.h"
 
 using namespace plumb;
@@ -25,6 +26,12 @@ Frame cast_frame(const BuiltinScene& scene, const Camera& camera, int width, Sim
   options.threads = threads;
   Frame frame(camera.width, camera.height);
   cast(Bvh(scene.mesh, build), camera, frame, options);
+  return frame;
+}
+
+Frame cast_frame(const Structure& structure, const Camera& camera, int threads) {
+  Frame frame(camera.width, camera.height);
+  cast(structure, camera, frame, {.threads = threads});
   return frame;
 }
 
@@ -54,11 +61,13 @@ TEST_SUITE("methods") {
       const BuiltinScene scene = builtin_scene(info.name);
       const Camera camera = scene.camera(417, 235);  // ends in the middle of tiles and blocks
       const Frame expected = cast_frame(scene, camera, 2, Simd::Auto, 1);
+      const KdTree kd_tree(scene.mesh, {.threads = 4});
       int threads = 1;
       for (const Simd simd : simd_targets()) {
         CAPTURE(simd_name(simd));
         CAPTURE(threads);
         for (const int width : {4, 8}) check_equal(expected, cast_frame(scene, camera, width, simd, threads));
+        check_equal(expected, cast_frame(kd_tree.with_simd(simd), camera, threads));
         check_equal(expected, raster_frame(scene, camera, simd, threads));
         threads = threads % 4 + 1;
       }

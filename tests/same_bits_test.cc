@@ -16,6 +16,7 @@
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
+#include "plumb/kd_tree.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
 #include "same_bits/answers.h"
@@ -219,6 +220,10 @@ TEST_SUITE("same bits") {
       for (const Method& method : trees()) {
         const auto make = [&](const Part& part) { return tree(part, method); };
         check(entry, method.name(), "rays", &Row::rays, hash_of_rays(entry, make));
+      }
+      for (const Simd simd : simd_targets()) {
+        const auto make = [&](const Part& part) { return KdTree(part.mesh, {.simd = simd}); };
+        check(entry, "kdtree " + std::string(simd_name(simd)), "rays", &Row::rays, hash_of_rays(entry, make));
       }
     });
   }

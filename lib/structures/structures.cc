@@ -4,6 +4,7 @@
 
 #include "plumb/brute_force.h"
 #include "plumb/error.h"
+#include "plumb/kd_tree.h"
 #include "plumb/sphere_tree.h"
 
 namespace plumb {
@@ -31,6 +32,11 @@ constexpr Entry kEntries[] = {
     {StructureKind::BruteForce, "brute",
      [](MeshView mesh, const StructureSettings& s) -> Structure {
        return BruteForce(mesh, {.simd = s.simd, .first_id = s.first_id});
+     }},
+    {StructureKind::KdTree, "kdtree",
+     [](MeshView mesh, const StructureSettings& s) -> Structure {
+       return KdTree(mesh,
+                     {.threads = s.threads, .simd = s.simd, .first_id = s.first_id, .progress = s.progress});
      }},
     {StructureKind::SphereTree, "spheres",
      [](MeshView mesh, const StructureSettings& s) -> Structure {

@@ -5,6 +5,7 @@
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
+#include "plumb/kd_tree.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
 #include "plumb/sphere_tree.h"
@@ -52,6 +53,15 @@ Subject brute_force(Simd simd) {
           nullptr};
 }
 
+Subject kd_tree(Simd simd) {
+  const std::string target(simd_name(simd));
+  return {"kdtree " + target, "KdTree(mesh, {.simd = parse_simd(\"" + target + "\")})",
+          [simd](const TriangleMesh& mesh) {
+            return std::make_unique<Adapted<KdTree>>(KdTree(mesh, {.threads = 1, .simd = simd}));
+          },
+          nullptr};
+}
+
 Subject spheres() {
   return {"spheres", "SphereTree(mesh)",
           [](const TriangleMesh& mesh) {
@@ -81,6 +91,7 @@ std::vector<Subject> all_subjects() {
   for (const int width : {4, 8}) {
     for (const Simd simd : simd_targets()) subjects.push_back(tree(width, simd, false));
   }
+  for (const Simd simd : simd_targets()) subjects.push_back(kd_tree(simd));
   for (const Simd simd : simd_targets()) subjects.push_back(rasterizer(simd));
   return subjects;
 }

@@ -59,6 +59,9 @@ Structure build(Method method, MeshView mesh, const BuildSettings& settings) {
     case Method::Brute:
       all.kind = StructureKind::BruteForce;
       break;
+    case Method::KdTree:
+      all.kind = StructureKind::KdTree;
+      break;
     case Method::Spheres:
       all.kind = StructureKind::SphereTree;
       break;
@@ -92,6 +95,7 @@ const std::vector<MethodInfo>& all_methods() {
       {Method::Bvh2, "bvh2", "rays through the binary tree; scalar", false, true},
       {Method::Bvh4, "bvh4", "rays through the tree of 4 children a node", true, true},
       {Method::Bvh8, "bvh8", "rays through the tree of 8 children a node", true, true},
+      {Method::KdTree, "kdtree", "rays through a k-d tree", true, false},
       {Method::Spheres, "spheres", "rays through the binary tree with spheres for boxes; scalar", false,
        false},
       {Method::Raster, "raster", "the rasterizer", true, true},

@@ -26,6 +26,7 @@
 #include "plumb/error.h"
 #include "plumb/frame.h"
 #include "plumb/io.h"
+#include "plumb/kd_tree.h"
 #include "plumb/mesh.h"
 #include "plumb/raster.h"
 #include "plumb/ray.h"

@@ -16,6 +16,7 @@ namespace plumb {
 enum class StructureKind {
   Bvh,         ///< Bvh: the one to take unless something speaks for another
   BruteForce,  ///< BruteForce: for a handful of triangles
+  KdTree,      ///< KdTree: of the most tests, few; slow to build
   SphereTree,  ///< SphereTree: to compare volumes with
 };
 
