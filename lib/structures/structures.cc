@@ -6,6 +6,7 @@
 #include "plumb/error.h"
 #include "plumb/kd_tree.h"
 #include "plumb/sphere_tree.h"
+#include "plumb/uniform_grid.h"
 
 namespace plumb {
 namespace {
@@ -37,6 +38,14 @@ constexpr Entry kEntries[] = {
      [](MeshView mesh, const StructureSettings& s) -> Structure {
        return KdTree(mesh,
                      {.threads = s.threads, .simd = s.simd, .first_id = s.first_id, .progress = s.progress});
+     }},
+    {StructureKind::UniformGrid, "grid",
+     [](MeshView mesh, const StructureSettings& s) -> Structure {
+       return UniformGrid(mesh, {.cells_per_triangle = s.cells_per_triangle,
+                                 .threads = s.threads,
+                                 .simd = s.simd,
+                                 .first_id = s.first_id,
+                                 .progress = s.progress});
      }},
     {StructureKind::SphereTree, "spheres",
      [](MeshView mesh, const StructureSettings& s) -> Structure {

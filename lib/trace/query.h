@@ -20,10 +20,11 @@ inline bool ray_can_hit(const Ray& ray) {
   return ray_is_valid(ray) && (ray.tmin > 0.0f ? ray.tmin : 0.0f) < ray.tmax;
 }
 
-/// Counts nothing.
+/// Counts nothing and keeps nothing.
 struct NoCounts {
   void count_volumes(std::size_t) {}
   void count_triangles(std::size_t) {}
+  void keep_waiting() {}
 };
 
 /// A triangle in a lane of a block: its nine coordinates lie `stride` floats apart.
@@ -81,6 +82,12 @@ class ClosestQuery : public NoCounts {
     return true;
   }
   static constexpr bool done() { return false; }
+  /// For who is about to change the block that an offered triangle may be in.
+  void keep_waiting() {
+    if (waiting_.id == kNone || waiting_.corner == own_) return;
+    for (std::size_t k = 0; k < 9; ++k) own_[k] = waiting_.corner[k * waiting_.stride];
+    waiting_ = {own_, 1, waiting_.id};
+  }
   /// Ends the traversal.
   void settle() {
     if (waiting_.id == kNone) return;
@@ -96,6 +103,7 @@ class ClosestQuery : public NoCounts {
   float limit_;
   float low_ = 0.0f, high_ = 0.0f;  // of the one that waits
   LaneTriangle waiting_;
+  float own_[9];  // coordinates of the one that waits, where they had to be kept
 };
 
 /// ClosestQuery, with what it takes to answer it.

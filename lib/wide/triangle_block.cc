@@ -7,11 +7,9 @@
 #include <glm/vec3.hpp>
 
 namespace plumb::detail {
-namespace {
-
 // TriangleBlock::extent. The sum is exact but for the last bits of a double, far inside the slack that
 // covers it and any order of summing in float; a difference that overflows makes it infinite.
-float extent_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+float triangle_extent(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const auto length = [&](const glm::vec3& to) {
     return (double{std::fabs(to.x - a.x)} + double{std::fabs(to.y - a.y)}) + double{std::fabs(to.z - a.z)};
   };
@@ -19,8 +17,6 @@ float extent_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   if (greatest > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::infinity();
   return std::max(static_cast<float>(greatest), 0x1p-30f);
 }
-
-}  // namespace
 
 template <int W>
 void set_triangle(TriangleBlock<W>& block, std::size_t lane, MeshView mesh, std::uint32_t index,
@@ -31,7 +27,7 @@ void set_triangle(TriangleBlock<W>& block, std::size_t lane, MeshView mesh, std:
   for (int v = 0; v < 3; ++v) {
     for (int axis = 0; axis < 3; ++axis) block.vertex[v][axis][lane] = vertex[v][axis];
   }
-  block.extent[lane] = extent_of(vertex[0], vertex[1], vertex[2]);
+  block.extent[lane] = triangle_extent(vertex[0], vertex[1], vertex[2]);
   block.id[lane] = first_id + index;
 }
 

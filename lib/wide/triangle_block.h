@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <glm/vec3.hpp>
+
 #include "plumb/mesh.h"
 
 namespace plumb::detail {
@@ -17,6 +19,9 @@ struct alignas(W * sizeof(float)) TriangleBlock {
   float extent[W];
   std::uint32_t id[W];
 };
+
+/// TriangleBlock::extent of a triangle.
+float triangle_extent(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2);
 
 /// Fills a lane with the mesh's triangle `index`, whose id will be first_id + index. The triangle must be
 /// finite.

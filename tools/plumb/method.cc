@@ -62,6 +62,9 @@ Structure build(Method method, MeshView mesh, const BuildSettings& settings) {
     case Method::KdTree:
       all.kind = StructureKind::KdTree;
       break;
+    case Method::Grid:
+      all.kind = StructureKind::UniformGrid;
+      break;
     case Method::Spheres:
       all.kind = StructureKind::SphereTree;
       break;
@@ -96,6 +99,7 @@ const std::vector<MethodInfo>& all_methods() {
       {Method::Bvh4, "bvh4", "rays through the tree of 4 children a node", true, true},
       {Method::Bvh8, "bvh8", "rays through the tree of 8 children a node", true, true},
       {Method::KdTree, "kdtree", "rays through a k-d tree", true, false},
+      {Method::Grid, "grid", "rays through a uniform grid", true, false},
       {Method::Spheres, "spheres", "rays through the binary tree with spheres for boxes; scalar", false,
        false},
       {Method::Raster, "raster", "the rasterizer", true, true},

@@ -37,4 +37,5 @@
 #include "plumb/structures.h"
 #include "plumb/surface.h"
 #include "plumb/topology.h"
+#include "plumb/uniform_grid.h"
 #include "plumb/version.h"

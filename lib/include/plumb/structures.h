@@ -14,10 +14,11 @@ namespace plumb {
 
 /// The ways to make a scene ready for rays. docs/structures.md compares them.
 enum class StructureKind {
-  Bvh,         ///< Bvh: the one to take unless something speaks for another
-  BruteForce,  ///< BruteForce: for a handful of triangles
-  KdTree,      ///< KdTree: of the most tests, few; slow to build
-  SphereTree,  ///< SphereTree: to compare volumes with
+  Bvh,          ///< Bvh: the one to take unless something speaks for another
+  BruteForce,   ///< BruteForce: for a handful of triangles
+  KdTree,       ///< KdTree: of the most tests, few; slow to build
+  UniformGrid,  ///< UniformGrid: the quickest to build
+  SphereTree,   ///< SphereTree: to compare volumes with
 };
 
 /// What builds a structure of any kind. Each kind takes what it knows and ignores the rest.
@@ -26,6 +27,8 @@ struct StructureSettings {
   /// Of a Bvh: as BuildOptions::quality and BuildOptions::width.
   Quality quality = Quality::Balanced;
   int width = 0;  ///< see quality
+  /// Of a UniformGrid: as UniformGridOptions::cells_per_triangle.
+  double cells_per_triangle = 2.0;
   /// Threads for the build; 0 takes all that the affinity mask allows.
   int threads = 0;
   /// Instruction set of the queries; must be Auto or one of simd_targets().
