@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -81,7 +82,8 @@ Triangle random_triangle(Random& random) {
   glm::vec3 v[3];
   v[0] = random.unit3() * scale;
   for (int i = 1; i < 3; ++i) {
-    for (int axis = 0; axis < 3; ++axis) v[i][axis] = nearby(random, v[random.below(2) % i][axis], size);
+    for (int axis = 0; axis < 3; ++axis)
+      v[i][axis] = nearby(random, v[random.below(static_cast<std::uint32_t>(i))][axis], size);
   }
   return {v[0], v[1], v[2]};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,8 @@ namespace {
 
 // A cell of so many triangles is built by one thread, larger ones by tasks.
 constexpr std::size_t kSubtree = 1 << 13;
+
+constexpr int kLanesLog2 = std::countr_zero(static_cast<unsigned>(kKdLanes));
 
 struct Cell {
   Box box;
@@ -41,7 +44,7 @@ class Builder {
   Builder(MeshView mesh, const KdBuildOptions& options, Progress& progress)
       : mesh_(mesh),
         options_(options),
-        costs_{options.node_cost, options.block_cost, options.empty_factor, kKdLanes},
+        costs_{options.node_cost, options.block_cost, options.empty_factor, kLanesLog2},
         progress_(progress) {}
 
   KdTreeParts run();
@@ -128,12 +131,13 @@ void Builder::split(Cell& cell, const KdPlane& plane, KdSide* side, Cell halves[
   halves[0].box.hi[plane.axis] = plane.place;
   halves[1].box.lo[plane.axis] = plane.place;
 
-  KdEvents fresh[3][2];  // of triangles that are cut, by axis and half
+  KdEvents fresh[3][2];          // of triangles that are cut, by axis and half
+  std::size_t kept[2] = {0, 0};  // triangles that are not
   for (const KdEvent& event : cell.events[plane.axis]) {
     if (!event.begins()) continue;
     const std::uint32_t index = event.triangle();
     if (side[index] != KdSide::Both) {
-      ++halves[side[index] == KdSide::Below ? 0 : 1].count;
+      ++kept[side[index] == KdSide::Below ? 0 : 1];
       continue;
     }
     const Triangle t = triangle(index);
@@ -144,10 +148,11 @@ void Builder::split(Cell& cell, const KdPlane& plane, KdSide* side, Cell halves[
       for (int axis = 0; axis < 3; ++axis) add_events(fresh[axis][half], box, axis, index);
     }
   }
+  for (const int half : {0, 1}) halves[half].count += kept[half];
   for_axes(cell.count, [&](int axis) {
     for (KdEvents& events : fresh[axis]) std::sort(events.begin(), events.end());
     KdEvents to[2];
-    split_events(cell.events[axis], side, fresh[axis], to);
+    split_events(cell.events[axis], side, kept, fresh[axis], to);
     KdEvents().swap(cell.events[axis]);
     halves[0].events[axis] = std::move(to[0]);
     halves[1].events[axis] = std::move(to[1]);

@@ -1,5 +1,6 @@
 #include "structures/kd_events.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace plumb::detail {
@@ -77,22 +78,34 @@ void classify(std::span<const KdEvent> events, const KdPlane& plane, KdSide* sid
   }
 }
 
-void split_events(std::span<const KdEvent> events, const KdSide* side, const KdEvents fresh[2],
-                  KdEvents halves[2]) {
-  std::size_t number[4] = {0, 0, 0, 0};  // by side
-  for (const KdEvent& event : events) ++number[static_cast<std::size_t>(side[event.triangle()])];
+void split_events(std::span<const KdEvent> events, const KdSide* side, const std::size_t kept[2],
+                  const KdEvents fresh[2], KdEvents halves[2]) {
+  // By side, those of cut triangles to nowhere: which way an event goes is too hard to predict for a branch.
+  // One more is there for a write that stays.
+  KdEvent nowhere;
+  KdEvent* to[3] = {&nowhere, nullptr, nullptr};
   for (const int half : {0, 1}) {
-    const auto kept = static_cast<KdSide>(half + 1);
-    KdEvents& to = halves[half];
-    to.resize(number[half + 1] + fresh[half].size());
-    KdEvent* out = to.data();
-    auto next = fresh[half].begin();
-    for (const KdEvent& event : events) {
-      if (side[event.triangle()] != kept) continue;
-      for (; next != fresh[half].end() && *next < event; ++next) *out++ = *next;
-      *out++ = event;
+    halves[half].resize(std::min(2 * kept[half], events.size()) + fresh[half].size() + 1);
+    to[half + 1] = halves[half].data();
+  }
+  for (const KdEvent& event : events) {
+    const auto where = static_cast<std::size_t>(side[event.triangle()]);
+    *to[where] = event;
+    to[where] += where != 0 ? 1 : 0;
+  }
+  for (const int half : {0, 1}) {
+    KdEvents& all = halves[half];
+    KdEvent* const begin = all.data();
+    KdEvent* end = to[half + 1];
+    all.resize(static_cast<std::size_t>(end - begin) + fresh[half].size());
+    // The few fresh ones push the others back, from the last on.
+    KdEvent* out = all.data() + all.size();
+    for (std::size_t i = fresh[half].size(); i-- > 0;) {
+      KdEvent* const place = std::upper_bound(begin, end, fresh[half][i]);
+      out = std::move_backward(place, end, out);
+      *--out = fresh[half][i];
+      end = place;
     }
-    for (; next != fresh[half].end(); ++next) *out++ = *next;
   }
 }
 

@@ -65,12 +65,13 @@ inline void add_events(KdEvents& events, const Box& box, int axis, std::uint32_t
 /// What a cell and its halves cost.
 struct KdCosts {
   double node = 1.0;   ///< of stepping from a cell to its halves, against...
-  double block = 1.0;  ///< ...a test of up to `lanes` triangles
+  double block = 1.0;  ///< ...a test of up to 2^lanes_log2 triangles
   double empty = 1.0;  ///< factor for a plane that cuts off empty space
-  std::size_t lanes = 1;
+  int lanes_log2 = 0;
 
   double leaf(std::size_t triangles) const {
-    return block * static_cast<double>((triangles + lanes - 1) / lanes);
+    const std::size_t lanes = std::size_t{1} << lanes_log2;
+    return block * static_cast<double>((triangles + lanes - 1) >> lanes_log2);
   }
 };
 
@@ -94,9 +95,9 @@ enum class KdSide : std::uint8_t { Both, Below, Above };
 /// Sets side[triangle] for all triangles of a cell from their events along the plane's axis.
 void classify(std::span<const KdEvent> events, const KdPlane& plane, KdSide* side);
 
-/// Moves events along any axis to the halves, keeping the order: those of triangles on one side, merged with
-/// fresh[0] below and fresh[1] above, which are sorted.
-void split_events(std::span<const KdEvent> events, const KdSide* side, const KdEvents fresh[2],
-                  KdEvents halves[2]);
+/// Moves events along any axis to the halves, keeping the order: those of triangles on one side, of which
+/// there are kept[0] below and kept[1] above, merged with fresh[0] and fresh[1], which are sorted.
+void split_events(std::span<const KdEvent> events, const KdSide* side, const std::size_t kept[2],
+                  const KdEvents fresh[2], KdEvents halves[2]);
 
 }  // namespace plumb::detail
