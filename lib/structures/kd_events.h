@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bit>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,7 +36,7 @@ class KdEvent {
   bool begins() const { return kind() != KdEventKind::End; }
   bool same_place(const KdEvent& other) const { return bits_ >> 32 == other.bits_ >> 32; }
 
-  auto operator<=>(const KdEvent&) const = default;
+  friend bool operator<(const KdEvent& a, const KdEvent& b) { return a.bits_ < b.bits_; }
 
  private:
   static constexpr std::uint32_t kSign = 0x80000000u;
