@@ -192,27 +192,52 @@ void choose_cells(GridScene& grid, double cells_per_triangle) {
   }
 }
 
-// A counting sort: how many each cell gets, where its list ends, then the lists from their ends.
+// Puts the triangles in the order of their rows of cells, so that the lists that one after another goes to,
+// and the triangles that a ray comes upon, are near each other in memory.
+void order_by_row(GridScene& grid) {
+  const GridAxis &y = grid.axis[1], &z = grid.axis[2];
+  const auto row_of = [&](const GridTriangle& t) {
+    return static_cast<std::size_t>(z.index(double{t.corner[2]})) * static_cast<std::size_t>(y.cells) +
+           static_cast<std::size_t>(y.index(double{t.corner[1]}));
+  };
+  std::vector<std::uint32_t> row(grid.triangles.size());
+  std::vector<std::uint32_t> place(static_cast<std::size_t>(y.cells) * static_cast<std::size_t>(z.cells) + 1,
+                                   0);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    row[i] = static_cast<std::uint32_t>(row_of(grid.triangles[i]));
+    ++place[row[i] + 1];
+  }
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  std::vector<GridTriangle> ordered(grid.triangles.size());
+  for (std::size_t i = 0; i < row.size(); ++i) ordered[place[row[i]]++] = grid.triangles[i];
+  grid.triangles = std::move(ordered);
+}
+
+// A counting sort: how many each cell gets, where its list ends, then the lists from their ends. The cells
+// that a triangle goes to are written down when they are counted, so that planes are asked once.
 void fill(GridScene& grid, Progress& progress) {
   const std::size_t cells = static_cast<std::size_t>(grid.axis[0].cells) *
                             static_cast<std::size_t>(grid.axis[1].cells) *
                             static_cast<std::size_t>(grid.axis[2].cells);
   grid.start.assign(cells + 1, 0);
-  std::uint64_t total = 0;
-  for (const GridTriangle& t : grid.triangles) {
-    for_each_cell(grid, t, [&](std::size_t cell) {
+  std::vector<std::uint32_t> cell_of;                             // of every reference, triangle by triangle
+  std::vector<std::size_t> end_of(grid.triangles.size() + 1, 0);  // of a triangle's references
+  cell_of.reserve(8 * grid.triangles.size());
+  for (std::size_t i = 0; i < grid.triangles.size(); ++i) {
+    for_each_cell(grid, grid.triangles[i], [&](std::size_t cell) {
       ++grid.start[cell];
-      ++total;
+      cell_of.push_back(static_cast<std::uint32_t>(cell));
     });
-  }
-  std::partial_sum(grid.start.begin(), grid.start.end(), grid.start.begin());
-  grid.refs.resize(total);
-  for (std::size_t i = grid.triangles.size(); i-- > 0;) {
-    for_each_cell(grid, grid.triangles[i],
-                  [&](std::size_t cell) { grid.refs[--grid.start[cell]] = static_cast<std::uint32_t>(i); });
+    end_of[i + 1] = cell_of.size();
     if (i % kPiece == 0 && !progress.add(std::min(kPiece, grid.triangles.size() - i))) break;
   }
   progress.throw_if_cancelled();
+  std::partial_sum(grid.start.begin(), grid.start.end(), grid.start.begin());
+  grid.refs.resize(cell_of.size());
+  for (std::size_t i = grid.triangles.size(); i-- > 0;) {
+    for (std::size_t k = end_of[i]; k < end_of[i + 1]; ++k)
+      grid.refs[--grid.start[cell_of[k]]] = static_cast<std::uint32_t>(i);
+  }
 }
 
 }  // namespace
@@ -222,6 +247,7 @@ GridScene build_grid(MeshView mesh, const GridBuildOptions& options, Progress& p
   add_triangles(grid, mesh, options.first_id);
   if (grid.triangles.empty()) return grid;
   choose_cells(grid, options.cells_per_triangle);
+  order_by_row(grid);
   fill(grid, progress);
   return grid;
 }

@@ -10,7 +10,7 @@
 namespace plumb::detail {
 
 struct GridBuildOptions {
-  double cells_per_triangle = 2.0;
+  double cells_per_triangle = 1.0;
   int threads = 0;
   std::uint32_t first_id = 0;
 };

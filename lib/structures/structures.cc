@@ -5,6 +5,7 @@
 #include "plumb/brute_force.h"
 #include "plumb/error.h"
 #include "plumb/kd_tree.h"
+#include "plumb/octree.h"
 #include "plumb/sphere_tree.h"
 #include "plumb/uniform_grid.h"
 
@@ -46,6 +47,11 @@ constexpr Entry kEntries[] = {
                                  .simd = s.simd,
                                  .first_id = s.first_id,
                                  .progress = s.progress});
+     }},
+    {StructureKind::Octree, "octree",
+     [](MeshView mesh, const StructureSettings& s) -> Structure {
+       return Octree(mesh,
+                     {.threads = s.threads, .simd = s.simd, .first_id = s.first_id, .progress = s.progress});
      }},
     {StructureKind::SphereTree, "spheres",
      [](MeshView mesh, const StructureSettings& s) -> Structure {

@@ -65,6 +65,9 @@ Structure build(Method method, MeshView mesh, const BuildSettings& settings) {
     case Method::Grid:
       all.kind = StructureKind::UniformGrid;
       break;
+    case Method::Octree:
+      all.kind = StructureKind::Octree;
+      break;
     case Method::Spheres:
       all.kind = StructureKind::SphereTree;
       break;
@@ -100,6 +103,7 @@ const std::vector<MethodInfo>& all_methods() {
       {Method::Bvh8, "bvh8", "rays through the tree of 8 children a node", true, true},
       {Method::KdTree, "kdtree", "rays through a k-d tree", true, false},
       {Method::Grid, "grid", "rays through a uniform grid", true, false},
+      {Method::Octree, "octree", "rays through an adaptive octree", true, false},
       {Method::Spheres, "spheres", "rays through the binary tree with spheres for boxes; scalar", false,
        false},
       {Method::Raster, "raster", "the rasterizer", true, true},

@@ -14,7 +14,7 @@
 namespace plumb::tool {
 
 /// A way to make a frame.
-enum class Method { Brute, Bvh2, Bvh4, Bvh8, KdTree, Grid, Spheres, Raster };
+enum class Method { Brute, Bvh2, Bvh4, Bvh8, KdTree, Grid, Octree, Spheres, Raster };
 
 struct MethodInfo {
   Method method;

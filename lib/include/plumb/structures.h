@@ -18,6 +18,7 @@ enum class StructureKind {
   BruteForce,   ///< BruteForce: for a handful of triangles
   KdTree,       ///< KdTree: of the most tests, few; slow to build
   UniformGrid,  ///< UniformGrid: the quickest to build
+  Octree,       ///< Octree: between the two
   SphereTree,   ///< SphereTree: to compare volumes with
 };
 
@@ -28,7 +29,7 @@ struct StructureSettings {
   Quality quality = Quality::Balanced;
   int width = 0;  ///< see quality
   /// Of a UniformGrid: as UniformGridOptions::cells_per_triangle.
-  double cells_per_triangle = 2.0;
+  double cells_per_triangle = 1.0;
   /// Threads for the build; 0 takes all that the affinity mask allows.
   int threads = 0;
   /// Instruction set of the queries; must be Auto or one of simd_targets().

@@ -14,7 +14,7 @@ namespace plumb {
 struct UniformGridOptions {
   /// Cells for each triangle, about; from 0.001 to 1000. The grid has fewer where triangles would be
   /// listed in too many cells, and at least one.
-  double cells_per_triangle = 2.0;
+  double cells_per_triangle = 1.0;
   /// Threads for the build; 0 takes all that the affinity mask allows. The grid does not depend on it.
   int threads = 0;
   /// Instruction set of the queries; must be Auto or one of simd_targets().
