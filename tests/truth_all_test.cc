@@ -7,13 +7,14 @@
 
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
+#include "plumb/kd_tree.h"
 #include "plumb/simd.h"
 #include "support/effort.h"
 #include "support/print.h"
 #include "support/shared_data.h"
 
-// Every hit along the shared hard rays, in order: trees against brute force over the same triangles. One ray
-// in so many is taken, or all of them when PLUMB_EVERY_RAY is set in the environment (some minutes).
+// Every hit along the shared hard rays, in order: structures against brute force over the same triangles. One
+// ray in so many is taken, or all of them when PLUMB_EVERY_RAY is set in the environment (some minutes).
 
 using namespace plumb;
 
@@ -34,23 +35,27 @@ TEST_SUITE("truth: all hits") {
       const BruteForce brute(mesh);
       std::vector<std::vector<Hit>> expected(rays.size());
       for (std::size_t i = 0; i < rays.size(); i += ray_stride()) brute.all(rays[i], expected[i]);
-      for (const int width : {2, 4, 8}) {
-        for (const Simd simd : simd_targets()) {
+      const auto check = [&](const Structure& structure) {
+        std::vector<Hit> found;
+        for (std::size_t i = 0; i < rays.size(); i += ray_stride()) {
+          CAPTURE(i);
+          structure.all(rays[i], found);
+          CHECK(found == expected[i]);
+          ++lists;
+          hits += found.size();
+        }
+      };
+      const KdTree kd_tree(mesh);
+      for (const Simd simd : simd_targets()) {
+        CAPTURE(simd_name(simd));
+        check(kd_tree.with_simd(simd));
+        for (const int width : {2, 4, 8}) {
           if (width == 2 && simd != simd_targets().front()) continue;
           CAPTURE(width);
-          CAPTURE(simd_name(simd));
           BuildOptions options;
           options.width = width;
           options.simd = simd;
-          const Bvh bvh(mesh, options);
-          std::vector<Hit> found;
-          for (std::size_t i = 0; i < rays.size(); i += ray_stride()) {
-            CAPTURE(i);
-            bvh.all(rays[i], found);
-            CHECK(found == expected[i]);
-            ++lists;
-            hits += found.size();
-          }
+          check(Bvh(mesh, options));
         }
       }
     }

@@ -11,11 +11,12 @@
 #include "plumb/camera.h"
 #include "plumb/cast.h"
 #include "plumb/frame.h"
+#include "plumb/kd_tree.h"
 #include "plumb/simd.h"
 #include "support/print.h"
 #include "support/shared_data.h"
 
-// The trees against exact answers that were made without the library.
+// The structures against exact answers that were made without the library.
 
 using namespace plumb;
 
@@ -24,31 +25,31 @@ namespace {
 // Scenes below this are small enough to go through every instruction set.
 constexpr std::size_t kFewTriangles = 40000;
 
-void check_rays(const Bvh& bvh, const std::string& scene) {
+void check_rays(const Structure& structure, const std::string& scene) {
   const std::vector<Ray> rays = shared::rays(scene);
   const std::vector<Hit> expected = shared::hits(scene);
   REQUIRE(rays.size() == expected.size());
   std::vector<Hit> closest(rays.size());
   const auto any = std::make_unique<bool[]>(rays.size());
-  bvh.closest(rays, closest);
-  bvh.any(rays, std::span<bool>(any.get(), rays.size()));
+  structure.closest(rays, closest);
+  structure.any(rays, std::span<bool>(any.get(), rays.size()));
   std::vector<Hit> all;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     CAPTURE(i);
     CHECK(closest[i] == expected[i]);
     CHECK(any[i] == (expected[i].id != kNone));
-    bvh.all(rays[i], all);
+    structure.all(rays[i], all);
     CHECK((all.empty() ? Hit{} : all.front()) == expected[i]);
   }
 }
 
-void check_frames(const Bvh& bvh, const std::string& scene) {
+void check_frames(const Structure& structure, const std::string& scene) {
   for (const shared::View& view : shared::views_of(scene)) {
     CAPTURE(view.name);
     const Camera camera = Camera::look_at(view.eye, view.target, view.up, view.fov_y_degrees,
                                           shared::kFrameWidth, shared::kFrameHeight);
     Frame frame(shared::kFrameWidth, shared::kFrameHeight);
-    cast(bvh, camera, frame);
+    cast(structure, camera, frame);
     CHECK(compare(frame, shared::frame(view)).different_pixels == 0);
   }
 }
@@ -84,6 +85,21 @@ TEST_SUITE("truth: trees") {
       CAPTURE(scene);
       for (const Simd simd : simd_targets()) {
         for (const int width : {4, 8}) check(scene, mesh, width, simd);
+      }
+    }
+  }
+
+  TEST_CASE("k-d trees do, on the smaller scenes with every instruction set") {
+    PLUMB_REQUIRE_SHARED();
+    for (const std::string& scene : shared::scenes()) {
+      CAPTURE(scene);
+      const TriangleMesh mesh = shared::load_scene(scene);
+      const KdTree tree(mesh);
+      for (const Simd simd : simd_targets()) {
+        if (mesh.triangles.size() >= kFewTriangles && simd != simd_targets().front()) continue;
+        CAPTURE(simd_name(simd));
+        check_rays(tree.with_simd(simd), scene);
+        check_frames(tree.with_simd(simd), scene);
       }
     }
   }
