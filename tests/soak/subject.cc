@@ -6,9 +6,11 @@
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
 #include "plumb/kd_tree.h"
+#include "plumb/octree.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
 #include "plumb/sphere_tree.h"
+#include "plumb/uniform_grid.h"
 
 namespace plumb::soak {
 namespace {
@@ -53,11 +55,13 @@ Subject brute_force(Simd simd) {
           nullptr};
 }
 
-Subject kd_tree(Simd simd) {
+// One of the structures of cells.
+template <typename Inner>
+Subject cells(const std::string& method, const std::string& type, Simd simd) {
   const std::string target(simd_name(simd));
-  return {"kdtree " + target, "KdTree(mesh, {.simd = parse_simd(\"" + target + "\")})",
+  return {method + " " + target, type + "(mesh, {.simd = parse_simd(\"" + target + "\")})",
           [simd](const TriangleMesh& mesh) {
-            return std::make_unique<Adapted<KdTree>>(KdTree(mesh, {.threads = 1, .simd = simd}));
+            return std::make_unique<Adapted<Inner>>(Inner(mesh, {.threads = 1, .simd = simd}));
           },
           nullptr};
 }
@@ -91,7 +95,11 @@ std::vector<Subject> all_subjects() {
   for (const int width : {4, 8}) {
     for (const Simd simd : simd_targets()) subjects.push_back(tree(width, simd, false));
   }
-  for (const Simd simd : simd_targets()) subjects.push_back(kd_tree(simd));
+  for (const Simd simd : simd_targets()) {
+    subjects.push_back(cells<KdTree>("kdtree", "KdTree", simd));
+    subjects.push_back(cells<UniformGrid>("grid", "UniformGrid", simd));
+    subjects.push_back(cells<Octree>("octree", "Octree", simd));
+  }
   for (const Simd simd : simd_targets()) subjects.push_back(rasterizer(simd));
   return subjects;
 }
