@@ -50,8 +50,8 @@ WatertightRay::WatertightRay(const Ray& ray, const Box& box, float greatest)
     inv_far[axis] = cut(inverse * (1.0 + 4.0 * 0x1p-24));
     box_origin_near[axis] = forward ? high : low;
     box_origin_far[axis] = forward ? low : high;
-    near_row[axis] = 2 * axis + (forward ? 0 : 1);
-    far_row[axis] = 2 * axis + (forward ? 1 : 0);
+    near_row[axis] = 2 * static_cast<std::uint32_t>(axis) + (forward ? 0 : 1);
+    far_row[axis] = 2 * static_cast<std::uint32_t>(axis) + (forward ? 1 : 0);
   }
 }
 
