@@ -89,15 +89,14 @@ void add_surface(Lines& lines, const Topology& t) {
   lines.line("Euler characteristic", fmt::format("{}{}", t.euler_characteristic, apart));
 }
 
-void add_trees(Lines& lines, const std::vector<Statistics>& trees) {
+void add_trees(Lines& lines, const std::vector<NamedTree>& trees) {
   lines.heading("Trees");
-  lines.add("  {:<6}{:>10}{:>10}{:>7}{:>7}{:>11}{:>10}{:>11}{:>8}{:>12}\n", "", "nodes", "leaves", "depth",
+  lines.add("  {:<8}{:>10}{:>10}{:>7}{:>7}{:>11}{:>10}{:>11}{:>8}{:>12}\n", "", "nodes", "leaves", "depth",
             "fill", "leaf fill", "SAH cost", "bytes/tri", "unseen", "build");
-  for (const Statistics& tree : trees) {
-    lines.add("  {:<6}{:>10}{:>10}{:>7}{:>5.0f} %{:>9.0f} %{:>10.1f}{:>11.1f}{:>8}{:>9.1f} ms\n",
-              fmt::format("bvh{}", tree.width), tree.nodes, tree.leaves, tree.depth, 100.0 * tree.fill,
-              100.0 * tree.leaf_fill, tree.sah_cost, bytes_per_triangle(tree), tree.unseen_triangles,
-              1e3 * tree.build_seconds);
+  for (const auto& [name, tree] : trees) {
+    lines.add("  {:<8}{:>10}{:>10}{:>7}{:>5.0f} %{:>9.0f} %{:>10.1f}{:>11.1f}{:>8}{:>9.1f} ms\n", name,
+              tree.nodes, tree.leaves, tree.depth, 100.0 * tree.fill, 100.0 * tree.leaf_fill, tree.sah_cost,
+              bytes_per_triangle(tree), tree.unseen_triangles, 1e3 * tree.build_seconds);
   }
 }
 
@@ -124,6 +123,9 @@ std::string to_text(const Info& info) {
   add_mesh(lines, info);
   add_surface(lines, info.topology);
   add_trees(lines, info.trees);
+  lines.heading("Advice, for ten million rays");
+  lines.add("  {}{}: {}\n", structure_kind_name(info.advice.settings.kind),
+            info.advice.settings.quality == Quality::Fast ? ", built quickly" : "", info.advice.reason);
   return std::move(lines).text();
 }
 

@@ -6,8 +6,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "plumb/bvh.h"
+#include "plumb/advise.h"
 #include "plumb/mesh.h"
+#include "plumb/statistics.h"
 #include "plumb/topology.h"
 
 namespace plumb::tool {
@@ -21,13 +22,20 @@ struct Box {
 /// Around the vertices whose coordinates are finite, used or not.
 Box box_of(MeshView mesh);
 
+/// A tree, or another structure, by its method's name.
+struct NamedTree {
+  std::string name;
+  Statistics statistics;
+};
+
 /// What `plumb info` found out about a scene.
 struct Info {
   std::string name;
   std::size_t vertices, triangles;
   Box box;
   Topology topology;
-  std::vector<Statistics> trees;  ///< in the order in which they were built
+  std::vector<NamedTree> trees;  ///< in the order in which they were built
+  Advice advice;                 ///< what to take for ten million rays
 };
 
 /// Memory held, by the mesh's triangles; 0 where it has none.

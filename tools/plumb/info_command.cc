@@ -8,8 +8,9 @@
 #include "commands.h"
 #include "help.h"
 #include "info.h"
+#include "method.h"
 #include "output_file.h"
-#include "plumb/bvh.h"
+#include "plumb/advise.h"
 #include "plumb/error.h"
 #include "plumb/topology.h"
 #include "progress_bar.h"
@@ -22,30 +23,33 @@ namespace {
 
 struct InfoOptions {
   std::string scene = kDefaultScene;
-  int width = 0;  ///< 0: each of kWidths
+  int width = 0;        ///< 0: each of 2, 4 and 8
+  std::string methods;  ///< instead, where it is not empty
   int threads = 0;
   bool json = false;
 };
 
-const std::vector<int> kWidths = {2, 4, 8};
-
-std::vector<int> chosen_widths(int width) {
-  if (width == 0) return kWidths;
-  if (std::find(kWidths.begin(), kWidths.end(), width) != kWidths.end()) return {width};
-  throw Error(fmt::format("plumb: --width {}: give 2, 4 or 8", width));
+std::vector<Method> chosen_methods(const InfoOptions& options) {
+  if (!options.methods.empty()) {
+    if (options.width != 0) throw Error("plumb: --width and --methods both say which trees: give one");
+    return parse_methods(options.methods);
+  }
+  if (options.width == 0) return {Method::Bvh2, Method::Bvh4, Method::Bvh8};
+  if (options.width != 2 && options.width != 4 && options.width != 8)
+    throw Error(fmt::format("plumb: --width {}: give 2, 4 or 8", options.width));
+  return {parse_method(fmt::format("bvh{}", options.width))};
 }
 
 Info look_at(const InfoOptions& options) {
-  const std::vector<int> widths = chosen_widths(options.width);
+  const std::vector<Method> methods = chosen_methods(options);
   const TriangleMesh mesh = open_mesh(options.scene);
-  Info info{options.scene, mesh.positions.size(), mesh.triangles.size(), box_of(mesh), {}, {}};
+  Info info{options.scene, mesh.positions.size(), mesh.triangles.size(), box_of(mesh), {}, {}, advise(mesh)};
   info.topology = topology(mesh, progress_bar("topology"));
-  for (const int width : widths) {
-    BuildOptions build;
-    build.width = width;
-    build.threads = options.threads;
-    build.progress = progress_bar(fmt::format("bvh{}: build", width));
-    info.trees.push_back(Bvh(mesh, build).statistics());
+  for (const Method method : methods) {
+    const std::string name(method_name(method));
+    const Structure tree =
+        build_method(method, mesh, Simd::Auto, options.threads, progress_bar(name + ": build"));
+    info.trees.push_back({name, tree.statistics()});
   }
   return info;
 }
@@ -65,6 +69,8 @@ void add_info_command(CLI::App& app, int& status) {
   add_scene_option(*command, options->scene);
   command->add_option("--width", options->width, "only the tree of so many children a node")
       ->type_name("2|4|8");
+  command->add_option("--methods", options->methods, "the trees and other structures of these methods")
+      ->type_name("LIST");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", options->json, "print it as JSON");
   command->footer(info_help());

@@ -42,11 +42,13 @@ Json topology_json(const Topology& t) {
           {"oriented", t.oriented()}};
 }
 
-Json tree_json(const Statistics& tree) {
-  return {{"name", "bvh" + std::to_string(tree.width)},
+Json tree_json(const NamedTree& named) {
+  const Statistics& tree = named.statistics;
+  return {{"name", named.name},
           {"width", tree.width},
           {"nodes", tree.nodes},
           {"leaves", tree.leaves},
+          {"references", tree.references},
           {"depth", tree.depth},
           {"fill", tree.fill},
           {"leaf_fill", tree.leaf_fill},
@@ -61,11 +63,15 @@ Json tree_json(const Statistics& tree) {
 
 std::string to_json(const Info& info) {
   Json trees = Json::array();
-  for (const Statistics& tree : info.trees) trees.push_back(tree_json(tree));
+  for (const NamedTree& tree : info.trees) trees.push_back(tree_json(tree));
   const Json json = {{"plumb", PLUMB_VERSION},
                      {"scene", scene_json(info)},
                      {"topology", topology_json(info.topology)},
-                     {"trees", trees}};
+                     {"trees", trees},
+                     {"advice",
+                      {{"structure", structure_kind_name(info.advice.settings.kind)},
+                       {"quality", info.advice.settings.quality == Quality::Fast ? "fast" : "balanced"},
+                       {"reason", info.advice.reason}}}};
   // A file's name may hold bytes that are no text.
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

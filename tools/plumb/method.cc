@@ -43,47 +43,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-struct BuildSettings {
+struct DrawSettings {
   Simd simd;
   int threads;
   std::function<bool(double)> progress;
 };
 
-// What makes the rays' frames; not for Method::Raster.
-Structure build(Method method, MeshView mesh, const BuildSettings& settings) {
-  StructureSettings all;
-  all.simd = settings.simd;
-  all.threads = settings.threads;
-  all.progress = settings.progress;
-  switch (method) {
-    case Method::Brute:
-      all.kind = StructureKind::BruteForce;
-      break;
-    case Method::KdTree:
-      all.kind = StructureKind::KdTree;
-      break;
-    case Method::Grid:
-      all.kind = StructureKind::UniformGrid;
-      break;
-    case Method::Octree:
-      all.kind = StructureKind::Octree;
-      break;
-    case Method::Spheres:
-      all.kind = StructureKind::SphereTree;
-      break;
-    case Method::Bvh2:
-      all.width = 2;
-      break;
-    case Method::Bvh4:
-      all.width = 4;
-      break;
-    default:
-      all.width = 8;
-  }
-  return build_structure(mesh, all);
-}
-
-void draw(MeshView mesh, const Camera& camera, const BuildSettings& settings, RunResult& result) {
+void draw(MeshView mesh, const Camera& camera, const DrawSettings& settings, RunResult& result) {
   RasterOptions options;
   options.threads = settings.threads;
   options.simd = settings.simd;
@@ -159,6 +125,41 @@ std::vector<Run> plan_runs(const std::vector<Method>& methods, std::string_view 
   return runs;
 }
 
+Structure build_method(Method method, MeshView mesh, Simd simd, int threads,
+                       const std::function<bool(double)>& progress) {
+  if (method == Method::Raster) throw Error("plumb: raster casts no rays, so it has no tree");
+  StructureSettings all;
+  all.simd = simd;
+  all.threads = threads;
+  all.progress = progress;
+  switch (method) {
+    case Method::Brute:
+      all.kind = StructureKind::BruteForce;
+      break;
+    case Method::KdTree:
+      all.kind = StructureKind::KdTree;
+      break;
+    case Method::Grid:
+      all.kind = StructureKind::UniformGrid;
+      break;
+    case Method::Octree:
+      all.kind = StructureKind::Octree;
+      break;
+    case Method::Spheres:
+      all.kind = StructureKind::SphereTree;
+      break;
+    case Method::Bvh2:
+      all.width = 2;
+      break;
+    case Method::Bvh4:
+      all.width = 4;
+      break;
+    default:
+      all.width = 8;
+  }
+  return build_structure(mesh, all);
+}
+
 RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threads,
                   const ProgressFor& progress) {
   RunResult result{Frame(camera.width, camera.height), std::nullopt, 0.0};
@@ -169,7 +170,7 @@ RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threa
     return result;
   }
   const Stopwatch build_watch;
-  const Structure structure = build(run.method, mesh, {simd, threads, progress(run.name + ": build")});
+  const Structure structure = build_method(run.method, mesh, simd, threads, progress(run.name + ": build"));
   result.build_seconds = build_watch.seconds();
   CastOptions options;
   options.threads = threads;

@@ -10,6 +10,7 @@
 #include "plumb/frame.h"
 #include "plumb/mesh.h"
 #include "plumb/simd.h"
+#include "plumb/structure.h"
 
 namespace plumb::tool {
 
@@ -46,6 +47,11 @@ struct Run {
 /// Every method on every target that `simd` names ("auto", one target, or "all"); scalar methods
 /// once. Throws plumb::Error for a target that is none or that this machine cannot run.
 std::vector<Run> plan_runs(const std::vector<Method>& methods, std::string_view simd);
+
+/// What rays are cast through, by a method that casts some: plumb::Error for Method::Raster. `simd` must be
+/// usable; scalar methods ignore it.
+Structure build_method(Method method, MeshView mesh, Simd simd, int threads,
+                       const std::function<bool(double)>& progress);
 
 /// Makes a progress callback for a part of the work, such as "bvh4: build"; may return an empty one.
 using ProgressFor = std::function<std::function<bool(double)>(const std::string&)>;

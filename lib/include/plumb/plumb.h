@@ -18,6 +18,7 @@
 ///
 /// docs/visibility.md defines what is visible; docs/examples has programs to start from.
 
+#include "plumb/advise.h"
 #include "plumb/brute_force.h"
 #include "plumb/builtin.h"
 #include "plumb/bvh.h"
