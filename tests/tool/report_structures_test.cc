@@ -47,10 +47,10 @@ TEST_CASE("--structures measures every structure, all of which agree") {
   const nlohmann::json json = nlohmann::json::parse(run.out);
   CHECK(json["agree"] == true);
   REQUIRE(json["scenes"].size() == 2);
-  // A binary and a wide tree of boxes besides the other kinds; of many triangles not by brute force, which
+  // Three trees of boxes besides the other kinds; of many triangles not by brute force, which
   // the soup of 3000 still is.
   for (const nlohmann::json& scene : json["scenes"]) {
-    CHECK(scene["structures"].size() == structure_kinds().size() + 1);
+    CHECK(scene["structures"].size() == structure_kinds().size() + 2);
     for (const nlohmann::json& row : scene["structures"]) {
       CAPTURE(row["structure"].get<std::string>());
       CHECK(row["wrong"] == 0);
@@ -75,6 +75,7 @@ TEST_CASE("--structures --out writes the document and its plots") {
   REQUIRE(run.status == 0);
   const std::string text = text_of(folder / "found.md");
   CHECK(text.find("and none differed") != std::string::npos);
+  CHECK(text.find("Right, within a tenth, in ") != std::string::npos);
   CHECK(text.find("## When to use which") != std::string::npos);
   int plots = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {

@@ -52,6 +52,7 @@ class Document {
     for (const StructureScene& scene : report_.scenes) scene_table(scene);
     for (const StructureSeries& series : report_.series) series_tables(series);
     choices();
+    advice();
     return std::move(text_);
   }
 
@@ -76,6 +77,7 @@ class Document {
     line(
         "| bvh8 | the same collapsed to 8 children a node, boxes and triangles tested by SIMD; what `Bvh` is "
         "unless told otherwise |");
+    line("| bvh8-fast | bvh8 of `Quality::Fast` |");
     line("| brute | every ray against every triangle by SIMD; only where there are few |");
     line("| spheres | bvh2 with a bounding sphere for each box |");
     line("| kdtree | k-d tree by the surface area heuristic, triangles clipped to their cells |");
@@ -193,6 +195,47 @@ class Document {
         for (const StructureScene& scene : series.scenes) lines_of(scene);
       }
     }
+  }
+
+  template <typename Visit>
+  void for_each_scene(const Visit& visit) const {
+    for (const StructureScene& scene : report_.scenes) visit(scene);
+    for (const StructureSeries& series : report_.series) {
+      for (const StructureScene& scene : series.scenes) visit(scene);
+    }
+  }
+
+  void advice() {
+    line(
+        "\n## What advise() says\n\nFor a build and so many rays, half of them from the camera and half "
+        "diffuse: what it "
+        "advises, how long that takes as measured above, and the best.\n");
+    line("| scene | rays | advised | takes, s | best | takes, s | ratio |\n|---|---|---|---|---|---|---|");
+    int right = 0, all = 0;
+    double worst = 1.0, log_sum = 0.0;
+    for_each_scene([&](const StructureScene& scene) {
+      for (const StructureAdvice& advised : scene.advice) {
+        const auto cost = [&](const StructureRow& row) { return total_seconds(row, advised.rays); };
+        const auto row = std::find_if(scene.rows.begin(), scene.rows.end(),
+                                      [&](const StructureRow& r) { return r.name == advised.name; });
+        if (row == scene.rows.end()) continue;
+        const StructureRow& first = best(scene, cost);
+        const double ratio = cost(*row) / cost(first);
+        line("| {} | {} | {} | {} | {} | {} | {:.2f} |", scene.title,
+             grouped(static_cast<std::size_t>(advised.rays)), advised.name, three_digits(cost(*row)),
+             first.name, three_digits(cost(first)), ratio);
+        ++all;
+        right += ratio <= 1.1 ? 1 : 0;
+        worst = std::max(worst, ratio);
+        log_sum += std::log(ratio);
+      }
+    });
+    if (all == 0) return;
+    line(
+        "\nRight, within a tenth, in {} of {}; it costs {:.2f} times the best on (geometric) average, at "
+        "worst {:.2f} "
+        "times.",
+        right, all, std::exp(log_sum / all), worst);
   }
 
   const StructuresReport& report_;

@@ -15,6 +15,7 @@
 #include "bench/rays.h"
 #include "bench/scene.h"
 #include "bench/timing.h"
+#include "plumb/advise.h"
 
 namespace plumb::tool {
 namespace {
@@ -45,6 +46,8 @@ std::vector<Entrant> entrants(int threads, std::size_t triangles) {
       settings.width = width;
       list.push_back({fmt::format("bvh{}", width), settings});
     }
+    settings.quality = Quality::Fast;
+    list.push_back({"bvh8-fast", settings});
   }
   return list;
 }
@@ -90,10 +93,23 @@ void time_rays(const std::vector<Structure>& structures, Set& set, const Structu
   }
 }
 
+// For a frame, for many, and for a day's.
+std::vector<StructureAdvice> advice_for(MeshView mesh) {
+  std::vector<StructureAdvice> list;
+  for (const double rays : {1e5, 1e7, 1e9}) {
+    const StructureSettings settings = advise(mesh, rays).settings;
+    std::string name(structure_kind_name(settings.kind));
+    if (settings.kind == StructureKind::Bvh) name = settings.quality == Quality::Fast ? "bvh8-fast" : "bvh8";
+    list.push_back({rays, name});
+  }
+  return list;
+}
+
 StructureScene measure(std::string title, bench::View view, const StructuresOptions& options) {
   const std::unique_ptr<Workload> workload = bench::make_workload(std::move(view));
   const TriangleMesh& mesh = workload->view.mesh;
-  StructureScene scene{std::move(title), mesh.triangles.size(), workload->camera.rays.size(), {}};
+  StructureScene scene{
+      std::move(title), mesh.triangles.size(), workload->camera.rays.size(), {}, advice_for(mesh)};
   std::vector<Structure> structures;
   std::vector<std::function<void()>> builds;
   for (const Entrant& entrant : entrants(options.threads, mesh.triangles.size())) {
@@ -108,7 +124,9 @@ StructureScene measure(std::string title, bench::View view, const StructuresOpti
     structures.push_back(structure);
     builds.emplace_back([&mesh, settings = entrant.settings] { build_structure(mesh, settings); });
   }
-  const std::vector<double> seconds = bench::time_interleaved(builds, options.rounds, options.threads);
+  // What takes seconds is timed well enough once.
+  const int rounds = mesh.triangles.size() > 3'000'000 ? 1 : options.rounds;
+  const std::vector<double> seconds = bench::time_interleaved(builds, rounds, options.threads);
   for (std::size_t i = 0; i < scene.rows.size(); ++i) scene.rows[i].build_seconds = seconds[i];
   time_rays(structures, workload->camera, options, &StructureRow::camera, scene.rows);
   time_rays(structures, workload->shadow, options, &StructureRow::shadow, scene.rows);

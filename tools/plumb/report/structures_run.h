@@ -37,11 +37,18 @@ struct StructureRow {
   double bytes_per_triangle() const;
 };
 
+/// What advise() says for so many rays.
+struct StructureAdvice {
+  double rays;
+  std::string name;  ///< of the row
+};
+
 struct StructureScene {
   std::string title;
   std::size_t triangles = 0;
   std::size_t camera_rays = 0;
   std::vector<StructureRow> rows;  ///< brute force only where there are few triangles
+  std::vector<StructureAdvice> advice;
 };
 
 /// Scenes of one kind that grow in something.
