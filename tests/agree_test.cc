@@ -12,8 +12,8 @@
 #include "oracle/oracle.h"
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
-#include "plumb/kd_tree.h"
 #include "plumb/simd.h"
+#include "plumb/structures.h"
 #include "support/effort.h"
 #include "support/fp_modes.h"
 #include "support/hard_rays.h"
@@ -143,10 +143,19 @@ TEST_SUITE("agree: queries") {
     }
   }
 
-  TEST_CASE("k-d trees on every instruction set agree with the oracle") {
-    for (const Simd simd : simd_targets()) {
-      CAPTURE(simd_name(simd));
-      for (const Answered& a : answered_cases()) check_queries(KdTree(a.c.mesh, {.simd = simd}), a);
+  TEST_CASE("structures of every kind agree with the oracle on every instruction set") {
+    for (const StructureKind kind : structure_kinds()) {
+      CAPTURE(std::string(structure_kind_name(kind)));
+      StructureSettings settings;
+      settings.kind = kind;
+      settings.threads = 1;
+      for (const Answered& a : answered_cases()) {
+        const Structure structure = build_structure(a.c.mesh, settings);
+        for (const Simd simd : simd_targets()) {
+          CAPTURE(simd_name(simd));
+          check_queries(structure.with_simd(simd), a);
+        }
+      }
     }
   }
 

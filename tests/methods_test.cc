@@ -11,6 +11,7 @@
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
 #include "plumb/kd_tree.h"
+#include "plumb/octree.h"
 #include "plumb/raster.h"
 
 using namespace plumb;
@@ -61,13 +62,14 @@ TEST_SUITE("methods") {
       const BuiltinScene scene = builtin_scene(info.name);
       const Camera camera = scene.camera(417, 235);  // ends in the middle of tiles and blocks
       const Frame expected = cast_frame(scene, camera, 2, Simd::Auto, 1);
-      const KdTree kd_tree(scene.mesh, {.threads = 4});
+      const std::vector<Structure> structures = {KdTree(scene.mesh), Octree(scene.mesh)};
       int threads = 1;
       for (const Simd simd : simd_targets()) {
         CAPTURE(simd_name(simd));
         CAPTURE(threads);
         for (const int width : {4, 8}) check_equal(expected, cast_frame(scene, camera, width, simd, threads));
-        check_equal(expected, cast_frame(kd_tree.with_simd(simd), camera, threads));
+        for (const Structure& structure : structures)
+          check_equal(expected, cast_frame(structure.with_simd(simd), camera, threads));
         check_equal(expected, raster_frame(scene, camera, simd, threads));
         threads = threads % 4 + 1;
       }

@@ -16,9 +16,9 @@
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
-#include "plumb/kd_tree.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
+#include "plumb/structures.h"
 #include "same_bits/answers.h"
 #include "same_bits/entries.h"
 #include "same_bits/table.h"
@@ -214,16 +214,24 @@ TEST_SUITE("same bits") {
     CHECK(hash() != before);
   }
 
-  TEST_CASE("rays: by brute force and by trees of every width and instruction set") {
+  TEST_CASE("rays: by structures of every kind, width and instruction set") {
     each_entry([](const Entry& entry, std::size_t) {
       check(entry, "brute force", "rays", &Row::rays, hash_of_rays(entry, brute));
       for (const Method& method : trees()) {
         const auto make = [&](const Part& part) { return tree(part, method); };
         check(entry, method.name(), "rays", &Row::rays, hash_of_rays(entry, make));
       }
-      for (const Simd simd : simd_targets()) {
-        const auto make = [&](const Part& part) { return KdTree(part.mesh, {.simd = simd}); };
-        check(entry, "kdtree " + std::string(simd_name(simd)), "rays", &Row::rays, hash_of_rays(entry, make));
+      for (const StructureKind kind : structure_kinds()) {
+        for (const Simd simd : simd_targets()) {
+          const auto make = [&](const Part& part) {
+            StructureSettings settings;
+            settings.kind = kind;
+            settings.simd = simd;
+            return build_structure(part.mesh, settings);
+          };
+          check(entry, std::string(structure_kind_name(kind)) + " " + std::string(simd_name(simd)), "rays",
+                &Row::rays, hash_of_rays(entry, make));
+        }
       }
     });
   }

@@ -7,11 +7,11 @@
 
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
-#include "plumb/kd_tree.h"
 #include "plumb/simd.h"
 #include "support/effort.h"
 #include "support/print.h"
 #include "support/shared_data.h"
+#include "support/structures_of_cells.h"
 
 // Every hit along the shared hard rays, in order: structures against brute force over the same triangles. One
 // ray in so many is taken, or all of them when PLUMB_EVERY_RAY is set in the environment (some minutes).
@@ -45,10 +45,10 @@ TEST_SUITE("truth: all hits") {
           hits += found.size();
         }
       };
-      const KdTree kd_tree(mesh);
+      const std::vector<Structure> structures = structures_of_cells(mesh);
       for (const Simd simd : simd_targets()) {
         CAPTURE(simd_name(simd));
-        check(kd_tree.with_simd(simd));
+        for (const Structure& structure : structures) check(structure.with_simd(simd));
         for (const int width : {2, 4, 8}) {
           if (width == 2 && simd != simd_targets().front()) continue;
           CAPTURE(width);

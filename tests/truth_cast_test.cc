@@ -11,10 +11,10 @@
 #include "plumb/camera.h"
 #include "plumb/cast.h"
 #include "plumb/frame.h"
-#include "plumb/kd_tree.h"
 #include "plumb/simd.h"
 #include "support/print.h"
 #include "support/shared_data.h"
+#include "support/structures_of_cells.h"
 
 // The structures against exact answers that were made without the library.
 
@@ -89,17 +89,18 @@ TEST_SUITE("truth: trees") {
     }
   }
 
-  TEST_CASE("k-d trees do, on the smaller scenes with every instruction set") {
+  TEST_CASE("structures of cells do, on the smaller scenes with every instruction set") {
     PLUMB_REQUIRE_SHARED();
     for (const std::string& scene : shared::scenes()) {
       CAPTURE(scene);
       const TriangleMesh mesh = shared::load_scene(scene);
-      const KdTree tree(mesh);
-      for (const Simd simd : simd_targets()) {
-        if (mesh.triangles.size() >= kFewTriangles && simd != simd_targets().front()) continue;
-        CAPTURE(simd_name(simd));
-        check_rays(tree.with_simd(simd), scene);
-        check_frames(tree.with_simd(simd), scene);
+      for (const Structure& structure : structures_of_cells(mesh)) {
+        for (const Simd simd : simd_targets()) {
+          if (mesh.triangles.size() >= kFewTriangles && simd != simd_targets().front()) continue;
+          CAPTURE(simd_name(simd));
+          check_rays(structure.with_simd(simd), scene);
+          check_frames(structure.with_simd(simd), scene);
+        }
       }
     }
   }
