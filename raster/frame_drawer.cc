@@ -85,6 +85,10 @@ void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t t
                       first_id,
                       static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
+  if (counts_ != nullptr) {
+    kernels_.count_tile(task, bins_.triangles(), entries, frame, *counts_);
+    return;
+  }
   kernels_.draw_tile(task, bins_.triangles(), entries, frame);
 }
 

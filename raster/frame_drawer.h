@@ -27,6 +27,9 @@ class FrameDrawer {
   /// progress callback says so, and whatever that throws; in each case the frame is as it was.
   void draw(MeshView mesh, std::uint32_t first_id, Frame& frame);
 
+  /// From now on counts what is tested; for one thread only. The counts must outlive the drawer.
+  void count(RasterCounts& counts) { counts_ = &counts; }
+
  private:
   void draw_batches(MeshView mesh, std::uint32_t first_id, Frame& frame);
   void draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const;
@@ -36,6 +39,7 @@ class FrameDrawer {
   Projection projection_;
   RasterKernels kernels_;
   Bins bins_;
+  RasterCounts* counts_ = nullptr;
 };
 
 }  // namespace plumb::detail

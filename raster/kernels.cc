@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-RasterKernels MakeRasterKernels() { return {&SetUpTriangles, &DrawTile}; }
+RasterKernels MakeRasterKernels() { return {&SetUpTriangles, &DrawTile, &CountTile}; }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -7,6 +7,7 @@
 #include "pixels/screen_triangle.h"
 #include "pixels/tile_state.h"
 #include "plumb/frame.h"
+#include "plumb/raster.h"
 #include "plumb/simd.h"
 #include "raster/projection.h"
 
@@ -50,6 +51,9 @@ struct RasterKernels {
   /// Draws the entries into a tile and merges it into the frame.
   void (*draw_tile)(const TileTask& task, const BinnedTriangles& triangles, std::span<const BinEntry> entries,
                     Frame& frame);
+  /// The same, and counts what it tests.
+  void (*count_tile)(const TileTask& task, const BinnedTriangles& triangles,
+                     std::span<const BinEntry> entries, Frame& frame, RasterCounts& counts);
 };
 
 /// Those of one resolved target.

@@ -56,6 +56,19 @@ void Rasterizer::resolve(Frame& frame) const {
 
 void Rasterizer::clear() { impl_->drawn.clear(); }
 
+RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const RasterOptions& options) {
+  RasterOptions alone = options;
+  alone.threads = 1;
+  alone.progress = nullptr;
+  detail::FrameDrawer drawer(camera, alone);
+  RasterCounts counts;
+  counts.triangles = mesh.triangles.size();
+  drawer.count(counts);
+  Frame frame(camera.width, camera.height);
+  drawer.draw(mesh, options.first_id, frame);
+  return counts;
+}
+
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options) {
   detail::check_frame(frame, camera);
   detail::FrameDrawer(camera, options).draw(mesh, options.first_id, frame);

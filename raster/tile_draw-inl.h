@@ -1,5 +1,7 @@
 // Draws triangles into a tile: blocks of 4 x 4 pixels rejected a vector at a time, then the pixels of those
-// that are left, 16 at once. Included once per Highway target.
+// that are left, 16 at once. It is the descent of a quadtree over the screen, from coarse to fine (Warnock
+// 1969, "A hidden surface algorithm for computer generated halftone pictures"), with several of its levels a
+// step: frame, tile of 32 x 32, block of 4 x 4, pixel. Included once per Highway target.
 //
 // Everything here is a filter in float: a pixel is taken, or passed over, only where that is
 // certain; the others are decided exactly. Hence the order of triangles does not matter.
@@ -21,6 +23,7 @@
 #include "pixels/tile_planes-inl.h"
 #include "pixels/tile_state-inl.h"
 #include "raster/kernels.h"
+#include "raster/tile_counts.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
@@ -82,9 +85,10 @@ HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const flo
 }
 
 // Draws the triangle into a block; with `kFull` it certainly covers every pixel.
-template <bool kFull>
+template <bool kFull, class Counts>
 HWY_INLINE void DrawBlock(const TileTask& task, const TileTriangle& triangle, bool side_open, int block,
-                          TileState& state) {
+                          TileState& state, Counts& counts) {
+  counts.block(kFull);
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   HWY_ALIGN float centre[4];
@@ -119,6 +123,7 @@ HWY_INLINE void DrawBlock(const TileTask& task, const TileTriangle& triangle, bo
     edge_open |= depth_open;
     depth_open = 0;
   }
+  counts.open_pixels(depth_open | edge_open);
   if (depth_open != 0) DecideDepths(task, state, block, triangle.index, depth_open);
   if (edge_open != 0) DecidePixels(task, state, block, triangle.index, edge_open);
 }
@@ -132,8 +137,9 @@ HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
 }
 
 // Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
+template <class Counts>
 HWY_INLINE void DrawBlocks(const TileTask& task, const TileTriangle& triangle, bool side_open,
-                           TileState& state) {
+                           TileState& state, Counts& counts) {
   const hn::CappedTag<float, 16> d;
   const std::uint64_t box = BoxBlocks(triangle);
   const size_t lanes = hn::Lanes(d);
@@ -144,43 +150,49 @@ HWY_INLINE void DrawBlocks(const TileTask& task, const TileTriangle& triangle, b
   for (size_t first = begin; first < end; first += lanes) {
     auto open = hn::FirstN(d, 0), full = hn::FirstN(d, 0);
     TestBlocks(d, triangle, grow, first, state.block_low, open, full);
+    counts.block_tests(lanes);
     const std::uint32_t full_bits = MaskBits(d, full);
     for (std::uint32_t bits = MaskBits(d, open) & static_cast<std::uint32_t>(box >> first); bits != 0;
          bits &= bits - 1) {
       const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const int block = static_cast<int>(first + i);
       if ((full_bits >> i & 1) != 0) {
-        DrawBlock<true>(task, triangle, side_open, block, state);
+        DrawBlock<true>(task, triangle, side_open, block, state, counts);
       } else {
-        DrawBlock<false>(task, triangle, side_open, block, state);
+        DrawBlock<false>(task, triangle, side_open, block, state, counts);
       }
     }
   }
 }
 
 // Draws a triangle whose box has few blocks.
-HWY_INLINE void DrawSmall(const TileTask& task, const TileTriangle& triangle, TileState& state) {
+template <class Counts>
+HWY_INLINE void DrawSmall(const TileTask& task, const TileTriangle& triangle, TileState& state,
+                          Counts& counts) {
   const int x1 = triangle.x1 / kBlockPx, y1 = triangle.y1 / kBlockPx;
   for (int y = triangle.y0 / kBlockPx; y <= y1; ++y) {
     for (int x = triangle.x0 / kBlockPx; x <= x1; ++x)
-      DrawBlock<false>(task, triangle, false, y * kTileBlocks + x, state);
+      DrawBlock<false>(task, triangle, false, y * kTileBlocks + x, state, counts);
   }
 }
 
-HWY_INLINE void DrawWide(const TileTask& task, const ScreenTriangle& triangle, TileState& state) {
+template <class Counts>
+HWY_INLINE void DrawWide(const TileTask& task, const ScreenTriangle& triangle, TileState& state,
+                         Counts& counts) {
   if (triangle.x0 >= task.x + kTilePx || triangle.x1 < task.x || triangle.y0 >= task.y + kTilePx ||
       triangle.y1 < task.y)
     return;
   TileTriangle placed;
   PlaceTriangle(triangle, task.x, task.y, placed);
-  if (!OutsideTile(placed)) DrawBlocks(task, placed, triangle.side_open, state);
+  if (!OutsideTile(placed)) DrawBlocks(task, placed, triangle.side_open, state, counts);
   if (HWY_LIKELY(!triangle.side_open)) return;
   TurnEdges(placed);
-  DrawBlocks(task, placed, true, state);
+  DrawBlocks(task, placed, true, state, counts);
 }
 
-inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
-                     std::span<const BinEntry> entries, Frame& frame) {
+template <class Counts>
+HWY_INLINE void DrawEntries(const TileTask& task, const BinnedTriangles& triangles,
+                            std::span<const BinEntry> entries, Frame& frame, Counts& counts) {
   constexpr size_t kAhead = 8;
   const auto prefetch = [&](const BinEntry& entry) HWY_ATTR {
     const auto* next = entry.placed() ? reinterpret_cast<const char*>(triangles.placed + entry.index())
@@ -195,20 +207,35 @@ inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
     if (i + kAhead < entries.size()) prefetch(entries[i + kAhead]);
     const BinEntry entry = entries[i];
     if (i % 8 == 0) UpdateLows(state);
-    if (entry.nearest < state.tile_low) continue;  // hidden in all of the tile
+    const bool hidden = entry.nearest < state.tile_low;  // in all of the tile
+    counts.tile(hidden);
+    if (hidden) continue;
     if (!entry.placed()) {
-      DrawWide(task, triangles.wide[entry.index()], state);
+      DrawWide(task, triangles.wide[entry.index()], state, counts);
       continue;
     }
     const TileTriangle& triangle = triangles.placed[entry.index()];
     if (triangle.x1 / kBlockPx - triangle.x0 / kBlockPx < 2 &&
         triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
-      DrawSmall(task, triangle, state);
+      DrawSmall(task, triangle, state, counts);
     } else {
-      DrawBlocks(task, triangle, false, state);
+      DrawBlocks(task, triangle, false, state, counts);
     }
   }
   StoreTile(task, state, frame);
+}
+
+inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
+                     std::span<const BinEntry> entries, Frame& frame) {
+  NoTileCounts counts;
+  DrawEntries(task, triangles, entries, frame, counts);
+}
+
+// The same, counted: out of line, so that it costs the other nothing.
+HWY_NOINLINE inline void CountTile(const TileTask& task, const BinnedTriangles& triangles,
+                                   std::span<const BinEntry> entries, Frame& frame, RasterCounts& counts) {
+  TileCounts counter{counts};
+  DrawEntries(task, triangles, entries, frame, counter);
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

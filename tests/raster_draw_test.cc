@@ -51,6 +51,35 @@ MeshView part(const TriangleMesh& mesh, std::size_t first, std::size_t last) {
 }  // namespace
 
 TEST_SUITE("raster: draws") {
+  TEST_CASE("what is tested is counted, alike on every instruction set but for the width of a test") {
+    const TriangleMesh mesh = scene(1, 300);
+    const Camera camera = camera_of(83, 61);
+    const RasterCounts counts = count_raster_tests(mesh, camera);
+    CHECK(counts.triangles == 300);
+    CHECK(counts.tiles > 300);
+    CHECK(counts.tiles_hidden < counts.tiles);
+    CHECK(counts.blocks > 0);
+    CHECK(counts.blocks_full < counts.blocks);
+    CHECK(counts.blocks_full > 0);
+    CHECK(counts.pixels_decided > 0);  // of a fifth of the triangles there is a second
+    for (const Simd simd : simd_targets()) {
+      RasterOptions options;
+      options.simd = simd;
+      options.threads = 3;
+      const RasterCounts other = count_raster_tests(mesh, camera, options);
+      CHECK(other.tiles == counts.tiles);
+      CHECK(other.tiles_hidden == counts.tiles_hidden);
+    }
+    // One triangle over the whole view: each of its blocks is covered, and tested once.
+    const TriangleMesh wall{{{-99, -99, 0}, {99, -99, 0}, {0, 199, 0}}, {{0, 1, 2}}};
+    const RasterCounts of_wall = count_raster_tests(wall, camera_of(64, 32));
+    CHECK(of_wall.tiles == 2);
+    CHECK(of_wall.blocks == 2 * 64);
+    CHECK(of_wall.blocks_full == 2 * 64);
+    CHECK(of_wall.pixels_decided == 0);
+    CHECK_THROWS_AS(count_raster_tests(TriangleMesh{{{0, 0, 0}}, {{0, 0, 1}}}, camera), Error);
+  }
+
   TEST_CASE("parts drawn in any order, and drawn twice, give the whole") {
     const TriangleMesh mesh = scene(1, 300);
     const Camera camera = camera_of(83, 61);

@@ -123,6 +123,13 @@ std::string to_text(const Info& info) {
   add_mesh(lines, info);
   add_surface(lines, info.topology);
   add_trees(lines, info.trees);
+  const RasterCounts& raster = info.raster;
+  lines.heading("Rasterizer, a quadtree over the screen; the scene's camera, 1280x720");
+  lines.line("tiles of 32x32",
+             fmt::format("{}, {} of them hidden behind what was drawn", raster.tiles, raster.tiles_hidden));
+  lines.line("blocks of 4x4", fmt::format("{} tested; {} drawn, {} of them covered", raster.block_tests,
+                                          raster.blocks, raster.blocks_full));
+  lines.line("pixels left open", fmt::format("{}", raster.pixels_decided));
   lines.heading("Advice, for ten million rays");
   lines.add("  {}{}: {}\n", structure_kind_name(info.advice.settings.kind),
             info.advice.settings.quality == Quality::Fast ? ", built quickly" : "", info.advice.reason);

@@ -8,6 +8,7 @@
 
 #include "plumb/advise.h"
 #include "plumb/mesh.h"
+#include "plumb/raster.h"
 #include "plumb/statistics.h"
 #include "plumb/topology.h"
 
@@ -35,6 +36,7 @@ struct Info {
   Box box;
   Topology topology;
   std::vector<NamedTree> trees;  ///< in the order in which they were built
+  RasterCounts raster;           ///< at the scene's camera, 1280x720
   Advice advice;                 ///< what to take for ten million rays
 };
 

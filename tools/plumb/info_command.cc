@@ -42,8 +42,13 @@ std::vector<Method> chosen_methods(const InfoOptions& options) {
 
 Info look_at(const InfoOptions& options) {
   const std::vector<Method> methods = chosen_methods(options);
-  const TriangleMesh mesh = open_mesh(options.scene);
-  Info info{options.scene, mesh.positions.size(), mesh.triangles.size(), box_of(mesh), {}, {}, advise(mesh)};
+  FrameOptions frame;
+  frame.scene = options.scene;
+  const Scene scene = open_scene(frame);
+  const TriangleMesh& mesh = scene.mesh;
+  Info info{options.scene, mesh.positions.size(), mesh.triangles.size(), box_of(mesh), {}, {}, {},
+            advise(mesh)};
+  info.raster = count_raster_tests(mesh, scene.camera);
   info.topology = topology(mesh, progress_bar("topology"));
   for (const Method method : methods) {
     const std::string name(method_name(method));

@@ -67,6 +67,22 @@ class Rasterizer {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What rasterizing a mesh takes: the descent of a quadtree over the screen, several of its levels a step.
+struct RasterCounts {
+  std::uint64_t triangles = 0;  ///< of the mesh
+  std::uint64_t tiles =
+      0;  ///< tiles of 32 x 32 pixels that a triangle that may be seen was sent to, over all
+  std::uint64_t tiles_hidden = 0;    ///< of these, such as had only nearer things already
+  std::uint64_t block_tests = 0;     ///< blocks of 4 x 4 pixels tested before any pixel of theirs
+  std::uint64_t blocks = 0;          ///< blocks whose pixels were tested
+  std::uint64_t blocks_full = 0;     ///< of these, such as the triangle covers for certain
+  std::uint64_t pixels_decided = 0;  ///< pixels whose coverage or depth the float tests left open
+};
+
+/// Counts what rasterize() tests for a mesh alone, drawn by one thread; `options.threads` and the callback
+/// are not looked at. Throws what rasterize() throws.
+RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const RasterOptions& options = {});
+
 /// Draws a mesh as the camera sees it and merges it into the frame by (t, id); a clear frame gives
 /// the picture alone. Throws what Rasterizer does, and then leaves the frame as it was.
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options = {});

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "plumb/raster.h"
+
+namespace plumb::detail {
+
+/// What a tile's triangles are tested against, uncounted.
+struct NoTileCounts {
+  void tile(bool) {}
+  void block_tests(std::size_t) {}
+  void block(bool) {}
+  void open_pixels(std::uint32_t) {}
+};
+
+/// And counted.
+struct TileCounts {
+  RasterCounts& to;
+
+  void tile(bool hidden) {
+    ++to.tiles;
+    to.tiles_hidden += hidden ? 1 : 0;
+  }
+  void block_tests(std::size_t n) { to.block_tests += n; }
+  void block(bool full) {
+    ++to.blocks;
+    to.blocks_full += full ? 1 : 0;
+  }
+  void open_pixels(std::uint32_t bits) {
+    to.pixels_decided += static_cast<std::uint64_t>(std::popcount(bits));
+  }
+};
+
+}  // namespace plumb::detail
