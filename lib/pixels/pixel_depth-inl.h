@@ -28,8 +28,8 @@ HWY_INLINE V DirectionComponent(D d, V column, V row, double corner, double du, 
   return hn::PromoteTo(d, RoundToFloat(df, sum));
 }
 
-// T / den of one pixel's ray and one triangle a lane, and how far it may be off: infinite where the bound says
-// nothing, or NaN. `corner` gives the nine coordinates, `dx`, `dy`, `dz` are the float directions.
+// T / den of one pixel's ray and one triangle a lane, and how far it may be off: infinite where the bound
+// says nothing, or NaN. `corner` gives the nine coordinates, `dx`, `dy`, `dz` are the float directions.
 //
 // t = T / den with T = N.a, den = N.d, N = e1 x e2 and bounds as in exact/intersect.cc's double stage, whose
 // values these are: with u = 2^-53, |error of T| <= 8.01 u R L^2, |error of den| <= 7.01 u D L^2, fused or
