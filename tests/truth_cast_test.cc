@@ -12,6 +12,7 @@
 #include "plumb/cast.h"
 #include "plumb/frame.h"
 #include "plumb/simd.h"
+#include "support/effort.h"
 #include "support/print.h"
 #include "support/shared_data.h"
 #include "support/structures_of_cells.h"
@@ -94,6 +95,8 @@ TEST_SUITE("truth: trees") {
     for (const std::string& scene : shared::scenes()) {
       CAPTURE(scene);
       const TriangleMesh mesh = shared::load_scene(scene);
+      // Under the sanitizers a large scene takes minutes.
+      if (mesh.triangles.size() >= kFewTriangles && hard::kEffortDivisor > 1) continue;
       for (const Structure& structure : structures_of_cells(mesh)) {
         for (const Simd simd : simd_targets()) {
           if (mesh.triangles.size() >= kFewTriangles && simd != simd_targets().front()) continue;
