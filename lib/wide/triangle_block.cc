@@ -7,13 +7,14 @@
 #include <glm/vec3.hpp>
 
 namespace plumb::detail {
+
 // TriangleBlock::extent. The sum is exact but for the last bits of a double, far inside the slack that
 // covers it and any order of summing in float; a difference that overflows makes it infinite.
-float triangle_extent(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+float triangle_extent(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2) {
   const auto length = [&](const glm::vec3& to) {
-    return (double{std::fabs(to.x - a.x)} + double{std::fabs(to.y - a.y)}) + double{std::fabs(to.z - a.z)};
+    return (double{std::fabs(to.x - v0.x)} + double{std::fabs(to.y - v0.y)}) + double{std::fabs(to.z - v0.z)};
   };
-  const double greatest = std::max(length(b), length(c)) * (1.0 + 4 * 0x1p-24);
+  const double greatest = std::max(length(v1), length(v2)) * (1.0 + 4 * 0x1p-24);
   if (greatest > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::infinity();
   return std::max(static_cast<float>(greatest), 0x1p-30f);
 }
