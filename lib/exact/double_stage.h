@@ -89,6 +89,18 @@ struct DoubleStage {
   bool certainly_covered() const { return e_min > e_error || e_max < -e_error; }
   bool certainly_missed() const { return e_min < -e_error && e_max > e_error; }
 
+  // Whether t = T / den is below x, or above, for certain; x is not negative. T and den are within their
+  // errors of what was computed, and 2^-50 makes up for the four roundings of a comparison. Nothing
+  // overflows: the products are below 2^128 2^520.
+  bool certainly_below(double x) const {
+    return std::fabs(den) > den_error &&
+           along() + t_num_error < x * (std::fabs(den) - den_error) * (1.0 - 0x1p-50);
+  }
+  bool certainly_above(double x) const {
+    return std::fabs(den) > den_error &&
+           along() - t_num_error > x * (std::fabs(den) + den_error) * (1.0 + 0x1p-50);
+  }
+
   // The quotient of the computed values, and how many units of its last place it may be off from
   // det(a, b, c) / den: a relative (t_num_error / |t_num| + den_error / |den|), up to second order, and u
   // for the division; 2^53 times as much in units of the last place.
@@ -121,6 +133,9 @@ struct DoubleStage {
     t = round_to_float(q);
     return true;
   }
+
+ private:
+  double along() const { return den < 0.0 ? -t_num : t_num; }
 };
 
 }  // namespace plumb::detail

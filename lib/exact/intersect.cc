@@ -1,5 +1,6 @@
 #include "exact/intersect.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include "exact/determinant.h"
 #include "exact/double_stage.h"
 #include "exact/expansion.h"
+#include "exact/filter_ray.h"
 
 namespace plumb::detail {
 namespace {
@@ -101,6 +103,34 @@ float line_depth(const glm::vec3& origin, const glm::vec3& direction, const Tria
   float t = std::numeric_limits<float>::infinity();
   if (!stage.certain_depth(t)) exact_depth(origin, direction, triangle, t);
   return t;
+}
+
+bool ray_hit(const Ray& ray, const Triangle& triangle, bool covered, float limit, float& t) {
+  const DoubleStage stage(ray.origin, ray.direction, triangle);
+  if (!covered && stage.certainly_missed()) return false;
+  // Rounding is monotonic: a t below tmin does not round to more.
+  if (stage.certainly_below(std::max(double{ray.tmin}, 0.0)) || stage.certainly_above(double{limit}))
+    return false;
+  if (!covered && !stage.certainly_covered() && !exactly_covered(ray.origin, ray.direction, triangle))
+    return false;
+  if (stage.certain_depth(t)) return true;
+  return exact_depth(ray.origin, ray.direction, triangle, t) && std::isfinite(t);
+}
+
+bool ray_meets(const Ray& ray, const Triangle& triangle, bool covered) {
+  const DoubleStage stage(ray.origin, ray.direction, triangle);
+  if (!covered && stage.certainly_missed()) return false;
+  const float tmin = ray.tmin > 0.0f ? ray.tmin : 0.0f;  // not -0, which depth_limit() does not take
+  const double tmax = std::min(double{ray.tmax}, double{std::numeric_limits<float>::max()});
+  // What is above the float after tmin rounds to that at least; what is below tmax to no more.
+  if (stage.certainly_below(double{tmin}) || stage.certainly_above(double{depth_limit(ray.tmax)})) return false;
+  if (!covered && !stage.certainly_covered() && !exactly_covered(ray.origin, ray.direction, triangle))
+    return false;
+  if (stage.certainly_above(double{depth_limit(tmin)}) && stage.certainly_below(tmax))
+    return true;
+  float t = 0.0f;
+  if (!stage.certain_depth(t) && !exact_depth(ray.origin, ray.direction, triangle, t)) return false;
+  return std::isfinite(t) && depth_counts(ray, t);
 }
 
 }  // namespace plumb::detail

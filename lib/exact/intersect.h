@@ -37,6 +37,14 @@ bool line_hit(const glm::vec3& origin, const glm::vec3& direction, const Triangl
 /// zero. Infinite where it rounds so.
 float line_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& triangle);
 
+/// line_hit() for a ray; `covered` says that the caller has proved that the line meets the triangle with a
+/// denominator that is not zero. False as well for a hit that does not count on the ray for certain, or whose
+/// exact t is above `limit` for certain, before much is spent on its t.
+bool ray_hit(const Ray& ray, const Triangle& triangle, bool covered, float limit, float& t);
+
+/// Whether ray_hit() and t counts on the ray, for who does not ask for t.
+bool ray_meets(const Ray& ray, const Triangle& triangle, bool covered);
+
 /// Whether a hit at this (rounded) t counts on the ray.
 inline bool depth_counts(const Ray& ray, float t) {
   return t > (ray.tmin > 0.0f ? ray.tmin : 0.0f) && t <= ray.tmax;

@@ -14,8 +14,9 @@
 #include <limits>
 
 #include "base/mask_bits-inl.h"
+#include "exact/depth-inl.h"
 #include "hwy/highway.h"
-#include "pixels/pixel_depth-inl.h"
+#include "pixels/pixel_direction-inl.h"
 #include "pixels/tile_planes-inl.h"
 #include "pixels/tile_state.h"
 #include "plumb/frame.h"
@@ -161,13 +162,14 @@ HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Corn
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto x = hn::Add(base_x, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_x + lane)));
     const auto y = hn::Add(base_y, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_y + lane)));
-    const auto dx = DirectionComponent(d, x, y, camera.corner.x, camera.du.x, camera.dv.x);
-    const auto dy = DirectionComponent(d, x, y, camera.corner.y, camera.du.y, camera.dv.y);
-    const auto dz = DirectionComponent(d, x, y, camera.corner.z, camera.du.z, camera.dv.z);
+    const auto ray = [&](int k) HWY_ATTR {
+      return k < 3 ? hn::Set(d, double{camera.eye[k]})
+                   : DirectionComponent(d, x, y, camera.corner[k - 3], camera.du[k - 3], camera.dv[k - 3]);
+    };
     auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
     TriangleDepths(
-        d, camera.eye, [&](int k) HWY_ATTR { return corner(d, lane, k); }, dx, dy, dz, depth, certain);
+        d, ray, [&](int k) HWY_ATTR { return corner(d, lane, k); }, depth, certain);
     hn::Store(depth, df, t + lane);
     bits |= MaskBits(df, certain) << lane;
   }

@@ -71,7 +71,7 @@ struct BinaryTraversal {
     query.count_triangles(count);
     for (std::uint32_t i = first; i < first + count; ++i) {
       float t = 0.0f;
-      if (line_hit(ray.origin, ray.direction, leaves.triangles[i], t) && query.take(t, leaves.ids[i]))
+      if (ray_hit(ray, leaves.triangles[i], false, query.limit(), t) && query.take(t, leaves.ids[i]))
         return true;
     }
     return false;

@@ -64,14 +64,14 @@ struct BoxRay {
   static constexpr float kFarFactor = 1.0f + 6.0f * 0x1p-24f;
 
   BoxRay(const Ray& ray, float greatest)
-      : origin{ray.origin.x, ray.origin.y, ray.origin.z},
-        tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f),
-        in_range(greatest < 0x1p60f) {
+      : origin{ray.origin.x, ray.origin.y, ray.origin.z}, tmin(ray.tmin > 0.0f ? ray.tmin : 0.0f) {
     const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
+    float least = 0x1p60f, greatest_direction = 0.0f, reach = greatest;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const float magnitude = std::fabs(direction[axis]);
-      // Then |p - o| < 2^62, the inverses are normal and the products below 2^124.
-      in_range = in_range && magnitude > 0x1p-60f && magnitude < 0x1p60f && std::fabs(origin[axis]) < 0x1p60f;
+      least = std::min(least, magnitude);
+      greatest_direction = std::max(greatest_direction, magnitude);
+      reach = std::max(reach, std::fabs(origin[axis]));
       const float inverse = 1.0f / direction[axis];
       inv_near[axis] = inverse * kNearFactor;
       inv_far[axis] = inverse * kFarFactor;
@@ -79,6 +79,8 @@ struct BoxRay {
       near_row[axis] = 2 * axis + backward;
       far_row[axis] = 2 * axis + (1 - backward);
     }
+    // Then |p - o| < 2^62, the inverses are normal and the products below 2^124.
+    in_range = least > 0x1p-60f && greatest_direction < 0x1p60f && reach < 0x1p60f;
   }
 
   float near_origin(int axis) const { return origin[axis]; }

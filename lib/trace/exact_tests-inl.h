@@ -47,6 +47,9 @@ class ExactTests {
     filter_.set_limit(limit);
   }
 
+  // No exact t above `limit` matters.
+  void set_limit(float limit) { filter_.set_limit(limit); }
+
   HWY_INLINE std::uint32_t boxes(const WideNode<W>& node, float limit, float* near) const {
     return HWY_LIKELY(box_ray_.in_range) ? TestBoxes<W>(node, box_ray_, limit, near)
                                          : meet_children<W>(node, *exact_ray_, limit, near);
@@ -93,7 +96,7 @@ class ExactTests {
       if (count <= static_cast<std::uint32_t>(W)) break;
       count -= static_cast<std::uint32_t>(W);
     }
-    filter_.set_limit(query.limit());
+    if constexpr (Query::kOrdered) filter_.set_limit(query.limit());
     return false;
   }
 
@@ -102,15 +105,11 @@ class ExactTests {
   template <class Query>
   HWY_INLINE bool offer(const TriangleBlock<W>& block, size_t lane, bool covered, Query& query) const {
     const Triangle triangle = TriangleOf(block, lane);
-    float t = 0.0f;
-    if (covered) {
-      // May be infinite, which counts on no ray: a finite t wins everywhere else, and tmax = inf is
-      // excluded by the definition.
-      t = line_depth(ray_.origin, ray_.direction, triangle);
-      if (!(t < std::numeric_limits<float>::infinity())) return false;
-    } else if (!line_hit(ray_.origin, ray_.direction, triangle, t)) {
-      return false;
+    if constexpr (Query::kAnyHit) {
+      return query.take_any(ray_meets(ray_, triangle, covered));
     }
+    float t = 0.0f;
+    if (!ray_hit(ray_, triangle, covered, query.limit(), t)) return false;
     return query.take(t, block.id[lane]);
   }
 

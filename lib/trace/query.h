@@ -44,7 +44,8 @@ struct LaneTriangle {
 // A query with kBoundsDepth can be offered a triangle that the line meets for certain with float bounds of
 // its exact t, 0 < low <= t <= high (low is not positive where there are none), before its t is computed.
 // Rounding is monotonic, so RN32(t) lies between them too. take_bounds() returns false where they do not say
-// enough.
+// enough. kOrdered says that hits lower the limit, so that near volumes should be visited before far ones;
+// kAnyHit that only whether a hit counts matters, which take_any() is told.
 
 /// The smallest (t, id).
 ///
@@ -53,6 +54,8 @@ struct LaneTriangle {
 class ClosestQuery : public NoCounts {
  public:
   static constexpr bool kBoundsDepth = true;
+  static constexpr bool kOrdered = true;
+  static constexpr bool kAnyHit = false;
 
   explicit ClosestQuery(const Ray& ray)
       : ray_(ray), tmin_(ray.tmin > 0.0f ? ray.tmin : 0.0f), limit_(depth_limit(ray.tmax)) {}
@@ -121,12 +124,15 @@ class CountingQuery : public ClosestQuery {
 class AnyQuery : public NoCounts {
  public:
   static constexpr bool kBoundsDepth = true;
+  static constexpr bool kOrdered = false;
+  static constexpr bool kAnyHit = true;
 
   explicit AnyQuery(const Ray& ray)
       : ray_(ray), tmin_(ray.tmin > 0.0f ? ray.tmin : 0.0f), limit_(depth_limit(ray.tmax)) {}
   float limit() const { return limit_; }
-  bool take(float t, std::uint32_t) {
-    hit_ = depth_counts(ray_, t);
+  bool take(float t, std::uint32_t) { return take_any(depth_counts(ray_, t)); }
+  bool take_any(bool counts) {
+    hit_ = counts;
     return hit_;
   }
   bool take_bounds(float low, float high, const LaneTriangle&) {
@@ -147,6 +153,8 @@ class AnyQuery : public NoCounts {
 class AllQuery : public NoCounts {
  public:
   static constexpr bool kBoundsDepth = false;
+  static constexpr bool kOrdered = false;
+  static constexpr bool kAnyHit = false;
 
   AllQuery(const Ray& ray, std::vector<Hit>& hits) : ray_(ray), limit_(depth_limit(ray.tmax)), hits_(hits) {}
   float limit() const { return limit_; }
@@ -178,27 +186,35 @@ struct QueryTable {
   void (*count_tests)(const void* structure, const Ray* rays, std::size_t count, TestCounts& counts);
 };
 
-/// A table from a structure's traversal: `Traversal::run(structure, ray, query)` offers every line hit that
-/// may matter to query.take() until it returns true, and tells the query what it tests. One offered twice
-/// counts once.
+// The queries over spans by a structure's traversal: `Traversal::run(structure, ray, query)` offers every
+// line hit that may matter to query.take() until it returns true, and tells the query what it tests. One
+// offered twice counts once.
+
+template <typename Structure, typename Traversal>
+void closest_one_by_one(const void* structure, const Ray* rays, Hit* hits, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    ClosestQuery query(rays[i]);
+    if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
+    query.settle();
+    hits[i] = query.result();
+  }
+}
+
+template <typename Structure, typename Traversal>
+void any_one_by_one(const void* structure, const Ray* rays, bool* hits, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    AnyQuery query(rays[i]);
+    if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
+    hits[i] = query.result();
+  }
+}
+
+/// A table from a structure's traversal.
 template <typename Structure, typename Traversal>
 QueryTable make_query_table() {
   QueryTable table;
-  table.closest = [](const void* structure, const Ray* rays, Hit* hits, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      ClosestQuery query(rays[i]);
-      if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
-      query.settle();
-      hits[i] = query.result();
-    }
-  };
-  table.any = [](const void* structure, const Ray* rays, bool* hits, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      AnyQuery query(rays[i]);
-      if (ray_can_hit(rays[i])) Traversal::run(*static_cast<const Structure*>(structure), rays[i], query);
-      hits[i] = query.result();
-    }
-  };
+  table.closest = closest_one_by_one<Structure, Traversal>;
+  table.any = any_one_by_one<Structure, Traversal>;
   table.all = [](const void* structure, const Ray& ray, std::vector<Hit>& hits) {
     hits.clear();
     AllQuery query(ray, hits);

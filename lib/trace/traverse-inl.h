@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "build/binary_tree.h"
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "trace/query.h"
 #include "wide/wide_tree.h"
@@ -30,14 +31,22 @@ struct WideTraversalEntry {
 //                                  distance that no hit of a child is nearer than
 //     leaf(blocks, count, query)   offers the hits of a leaf's triangles to the query; true when the
 //                                  query is done
-// Vectors in both hold min(W, lanes of the target) lanes, so W = 8 takes one step on AVX2 and two on SSE4
-// or NEON.
+// `current` is where the ray starts, the root unless told. Vectors in the tests hold min(W, lanes of the
+// target) lanes, so W = 8 takes one step on AVX2 and two on SSE4 or NEON.
 template <int W, class Tests, class Query>
-HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query) {
+HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query,
+                         WideTraversalEntry current = {0.0f, 0, 0}) {
   // Every node visited leaves at most W - 1 siblings on the stack.
   WideTraversalEntry stack[(W - 1) * kMaxTreeDepth + 1];
   WideTraversalEntry* top = stack;
-  WideTraversalEntry current{0.0f, 0, 0};
+  // What waits on the stack is fetched meanwhile.
+  const auto prefetch = [&](const WideTraversalEntry& entry) HWY_ATTR {
+    if (entry.count != 0) {
+      hwy::Prefetch(&tree.blocks[entry.child]);
+    } else {
+      hwy::Prefetch(&tree.nodes[entry.child]);
+    }
+  };
   for (;;) {
     if (current.count != 0) {
       query.count_triangles(current.count);
@@ -52,9 +61,18 @@ HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query) {
         return {near[i], node.child[i], node.count[i]};
       };
       if (met != 0) {
-        // Mostly one or two are met, and the nearest comes next: it need not go by the stack.
         WideTraversalEntry nearest = entry_of(met);
         met &= met - 1;
+        if constexpr (!Query::kOrdered) {
+          // Any order will do.
+          for (; met != 0; met &= met - 1) {
+            *top = entry_of(met);
+            prefetch(*top++);
+          }
+          current = nearest;
+          continue;
+        }
+        // Mostly one or two are met, and the nearest comes next: it need not go by the stack.
         if (met == 0) {
           current = nearest;
           continue;
@@ -64,9 +82,11 @@ HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query) {
         if (second.near < nearest.near) std::swap(nearest, second);
         WideTraversalEntry* const base = top;
         *top++ = second;
+        prefetch(second);
         for (; met != 0; met &= met - 1) {
           WideTraversalEntry entry = entry_of(met);
           if (entry.near < nearest.near) std::swap(nearest, entry);
+          prefetch(entry);
           WideTraversalEntry* place = top++;
           for (; place != base && place[-1].near < entry.near; --place) *place = place[-1];
           *place = entry;

@@ -1,4 +1,4 @@
-// Attacks the double stages' bounds for t (exact/double_stage.h, pixels/pixel_depth-inl.h): a search for
+// Attacks the double stages' bounds for t (exact/double_stage.h, exact/depth-inl.h): a search for
 // rays and triangles whose quotient is as far off as possible, and for certain answers as near the midpoint
 // of two floats as they get.
 
@@ -6,8 +6,10 @@
 #define HWY_TARGET_INCLUDE "attack/depth_test.cc"
 #include "hwy/foreach_target.h"
 // After foreach_target.
+#include <glm/vec3.hpp>
+
+#include "exact/depth-inl.h"
 #include "hwy/highway.h"
-#include "pixels/pixel_depth-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
@@ -18,15 +20,14 @@ bool Depth(const glm::vec3& eye, const glm::vec3& direction, const float corner[
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto of = [&](int k) HWY_ATTR { return hn::Set(d, double{corner[k]}); };
-  const auto dx = hn::Set(d, double{direction.x}), dy = hn::Set(d, double{direction.y}),
-             dz = hn::Set(d, double{direction.z});
+  const auto ray = [&](int k) HWY_ATTR { return hn::Set(d, double{k < 3 ? eye[k] : direction[k - 3]}); };
   auto q = hn::Zero(d), s = hn::Zero(d);
-  TriangleQuotients(d, eye, of, dx, dy, dz, q, s);
+  TriangleQuotients(d, ray, of, q, s);
   quotient = hn::GetLane(q);
   slack = hn::GetLane(s);
   auto depth = hn::Zero(df);
   auto certain = hn::FirstN(df, 0);
-  TriangleDepths(d, eye, of, dx, dy, dz, depth, certain);
+  TriangleDepths(d, ray, of, depth, certain);
   t = hn::GetLane(depth);
   return hn::CountTrue(df, certain) != 0;
 }

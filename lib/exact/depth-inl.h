@@ -1,48 +1,42 @@
-// Exact depths of many pixels at once: double with a proven bound. Included once per Highway target.
+// Depths of many hits at once: double with a proven bound, a ray and a triangle in each lane. Included once
+// per Highway target.
 
-#if defined(PLUMB_PIXELS_PIXEL_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef PLUMB_PIXELS_PIXEL_DEPTH_INL_H_
-#undef PLUMB_PIXELS_PIXEL_DEPTH_INL_H_
+#if defined(PLUMB_EXACT_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_EXACT_DEPTH_INL_H_
+#undef PLUMB_EXACT_DEPTH_INL_H_
 #else
-#define PLUMB_PIXELS_PIXEL_DEPTH_INL_H_
+#define PLUMB_EXACT_DEPTH_INL_H_
 #endif
 
 #include <limits>
 
 #include "base/round-inl.h"
 #include "hwy/highway.h"
-#include "plumb/camera.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One component of the pixels' directions, as scene/pixel_direction.h has it: each operation rounded, the
-// result rounded to float. `column` and `row` are x + 0.5 and y + 0.5.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V DirectionComponent(D d, V column, V row, double corner, double du, double dv) {
-  const hn::Rebind<float, D> df;
-  const V sum =
-      hn::Add(hn::Add(hn::Set(d, corner), hn::Mul(column, hn::Set(d, du))), hn::Mul(row, hn::Set(d, dv)));
-  return hn::PromoteTo(d, RoundToFloat(df, sum));
-}
-
-// T / den of one pixel's ray and one triangle a lane, and how far it may be off: infinite where the bound
-// says nothing, or NaN. `corner` gives the nine coordinates, `dx`, `dy`, `dz` are the float directions.
+// T / den of one ray and one triangle a lane, and how far it may be off: infinite where the bound says
+// nothing, or NaN. `ray(k)` gives the rays' origins and directions (0 to 5), `corner(k)` the triangles'
+// coordinates (0 to 8), which are floats as doubles.
 //
-// t = T / den with T = N.a, den = N.d, N = e1 x e2 and bounds as in exact/intersect.cc's double stage, whose
+// t = T / den with T = N.a, den = N.d, N = e1 x e2 and bounds as in exact/double_stage.h, whose
 // values these are: with u = 2^-53, |error of T| <= 8.01 u R L^2, |error of den| <= 7.01 u D L^2, fused or
 // not. The quotient is off by (T's error + |t| den's error) / |den|, up to second order (1 % where
 // both errors are small, which is asked), and by 3 u for the reciprocal, the product and the sum that gives
-// an end of the interval.
-template <class D, class Corner, class V = hn::Vec<D>>
-HWY_INLINE void TriangleQuotients(D d, const glm::vec3& eye, const Corner& corner, V dx, V dy, V dz,
-                                  V& quotient, V& slack) {
+// an end of the interval. Nothing overflows, for |a|, |e| < 2^130 and |d| < 2^128 in any sum of three
+// products; what underflows is less than 2^-1020, where the factors of a bound that is not 0 are at least
+// 2^-53 and three of 2^-149, and with a bound of 0 the values are exactly 0 and their quotient is not a
+// number.
+template <class D, class OfRay, class Corner, class V = hn::Vec<D>>
+HWY_INLINE void TriangleQuotients(D d, const OfRay& ray, const Corner& corner, V& quotient, V& slack) {
+  const V dx = ray(3), dy = ray(4), dz = ray(5);
   const V v0x = corner(0), v0y = corner(1), v0z = corner(2);
-  const V ax = hn::Sub(v0x, hn::Set(d, double{eye.x}));
-  const V ay = hn::Sub(v0y, hn::Set(d, double{eye.y}));
-  const V az = hn::Sub(v0z, hn::Set(d, double{eye.z}));
+  const V ax = hn::Sub(v0x, ray(0));
+  const V ay = hn::Sub(v0y, ray(1));
+  const V az = hn::Sub(v0z, ray(2));
   const V e1x = hn::Sub(corner(3), v0x), e1y = hn::Sub(corner(4), v0y), e1z = hn::Sub(corner(5), v0z);
   const V e2x = hn::Sub(corner(6), v0x), e2y = hn::Sub(corner(7), v0y), e2z = hn::Sub(corner(8), v0z);
   const V nx = hn::MulSub(e1y, e2z, hn::Mul(e1z, e2y));
@@ -71,12 +65,13 @@ HWY_INLINE void TriangleQuotients(D d, const glm::vec3& eye, const Corner& corne
 
 // RN32(t) of the same, where that is certain, finite and above 0. Rounding is monotonic: where both ends of
 // the interval round to the same float, so does everything between. NaN compares as not equal.
-template <class D, class Corner, class V = hn::Vec<D>>
-HWY_INLINE void TriangleDepths(D d, const glm::vec3& eye, const Corner& corner, V dx, V dy, V dz,
-                               hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
+template <class D, class OfRay, class Corner>
+HWY_INLINE void TriangleDepths(D d, const OfRay& ray, const Corner& corner, hn::Vec<hn::Rebind<float, D>>& t,
+                               hn::Mask<hn::Rebind<float, D>>& certain) {
+  using V = hn::Vec<D>;
   const hn::Rebind<float, D> df;
   V quotient, slack;
-  TriangleQuotients(d, eye, corner, dx, dy, dz, quotient, slack);
+  TriangleQuotients(d, ray, corner, quotient, slack);
   t = RoundToFloat(df, hn::Sub(quotient, slack));
   const auto other = RoundToFloat(df, hn::Add(quotient, slack));
   const auto in_range =
