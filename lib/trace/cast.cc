@@ -10,40 +10,50 @@
 namespace plumb {
 namespace {
 
-// Rays of a block of pixels are cast together: neighbours visit the same nodes while these are in
-// the cache.
-constexpr int kBlockWidth = 16;
-constexpr int kBlockHeight = 16;
+// Rays of a block of pixels are cast together, square by square: a square's go through the tree as one
+// (trace/packet-inl.h), and neighbouring squares' visit the same nodes while these are in the cache.
+constexpr int kBlockSide = 16;
+constexpr int kSquareSide = 4;
 
-void cast_block(const Structure& structure, const Camera& camera, int x0, int y0, Frame& frame) {
-  std::array<Ray, kBlockWidth * kBlockHeight> rays;
-  std::array<Hit, kBlockWidth * kBlockHeight> hits;
-  const int x1 = std::min(x0 + kBlockWidth, camera.width);
-  const int y1 = std::min(y0 + kBlockHeight, camera.height);
-  std::size_t count = 0;
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) rays[count++] = camera.ray(x, y);
-  }
-  structure.closest(std::span<const Ray>(rays.data(), count), std::span<Hit>(hits.data(), count));
-  const Hit* hit = hits.data();
-  for (int y = y0; y < y1; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width);
-    for (int x = x0; x < x1; ++x, ++hit) {
-      frame.depth[row + static_cast<std::size_t>(x)] = hit->t;
-      frame.id[row + static_cast<std::size_t>(x)] = hit->id;
+// Calls visit(x, y) for the block's pixels that the camera has, in the order of their rays.
+template <typename Visit>
+void for_pixels(const Camera& camera, int x0, int y0, const Visit& visit) {
+  const int x1 = std::min(x0 + kBlockSide, camera.width);
+  const int y1 = std::min(y0 + kBlockSide, camera.height);
+  for (int square_y = y0; square_y < y1; square_y += kSquareSide) {
+    for (int square_x = x0; square_x < x1; square_x += kSquareSide) {
+      for (int y = square_y; y < std::min(square_y + kSquareSide, y1); ++y) {
+        for (int x = square_x; x < std::min(square_x + kSquareSide, x1); ++x) visit(x, y);
+      }
     }
   }
 }
 
+void cast_block(const Structure& structure, const Camera& camera, int x0, int y0, Frame& frame) {
+  std::array<Ray, kBlockSide * kBlockSide> rays;
+  std::array<Hit, kBlockSide * kBlockSide> hits;
+  std::size_t count = 0;
+  for_pixels(camera, x0, y0, [&](int x, int y) { rays[count++] = camera.ray(x, y); });
+  structure.closest(std::span<const Ray>(rays.data(), count), std::span<Hit>(hits.data(), count));
+  const Hit* hit = hits.data();
+  for_pixels(camera, x0, y0, [&](int x, int y) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
+    frame.depth[pixel] = hit->t;
+    frame.id[pixel] = hit->id;
+    ++hit;
+  });
+}
+
 void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
   detail::check_frame(frame, camera);
-  const auto columns = static_cast<std::size_t>((camera.width + kBlockWidth - 1) / kBlockWidth);
-  const auto rows = static_cast<std::size_t>((camera.height + kBlockHeight - 1) / kBlockHeight);
+  const auto columns = static_cast<std::size_t>((camera.width + kBlockSide - 1) / kBlockSide);
+  const auto rows = static_cast<std::size_t>((camera.height + kBlockSide - 1) / kBlockSide);
   detail::Progress progress(options.progress, columns * rows);
   detail::parallel_for(columns * rows, options.threads, [&](std::size_t block) {
     if (progress.cancelled()) return;
-    const int x0 = static_cast<int>(block % columns) * kBlockWidth;
-    const int y0 = static_cast<int>(block / columns) * kBlockHeight;
+    const int x0 = static_cast<int>(block % columns) * kBlockSide;
+    const int y0 = static_cast<int>(block / columns) * kBlockSide;
     cast_block(structure, camera, x0, y0, frame);
     progress.add(1);
   });

@@ -5,13 +5,13 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "trace/exact_tests-inl.h"
+#include "trace/span-inl.h"
 #include "trace/wide_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-QueryTable Wide4Queries() { return make_query_table<WideTree<4>, ExactTraversal<4>>(); }
+QueryTable Wide4Queries() { return MakeSpanQueryTable<4>(); }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -5,13 +5,13 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "trace/exact_tests-inl.h"
+#include "trace/span-inl.h"
 #include "trace/wide_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-QueryTable Wide8Queries() { return make_query_table<WideTree<8>, ExactTraversal<8>>(); }
+QueryTable Wide8Queries() { return MakeSpanQueryTable<8>(); }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
