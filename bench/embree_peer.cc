@@ -21,11 +21,18 @@ struct Source {
   Context context;
   std::shared_ptr<Shelf<EmbreeScene>> scenes;
   bool robust;
+  RTCBuildQuality quality;
 
-  std::string mode() const { return robust ? "embree-robust" : "embree-fast"; }
+  std::string mode() const {
+    const std::string mode = robust ? "embree-robust" : "embree-fast";
+    return quality == RTC_BUILD_QUALITY_LOW    ? mode + "-low"
+           : quality == RTC_BUILD_QUALITY_HIGH ? mode + "-high"
+                                               : mode;
+  }
   std::shared_ptr<EmbreeScene> scene(const Workload& workload) const {
     return scenes->get(context.name.title() + "/" + mode(), [&] {
-      return std::make_shared<EmbreeScene>(peers::EmbreeDevice(context.threads), workload.view.mesh, robust);
+      return std::make_shared<EmbreeScene>(peers::EmbreeDevice(context.threads), workload.view.mesh, robust,
+                                           quality);
     });
   }
 };
@@ -50,7 +57,7 @@ void trace_part(RTCScene scene, bool coherent, std::span<const Ray> rays, Answer
 std::size_t wrong(const RaySet<Hit>& set) { return other_triangles(set); }
 std::size_t wrong(const RaySet<bool>& set) { return differences(set); }
 
-// Camera and shadow rays are marked coherent, as they are and as packets want it.
+// Camera and shadow rays are marked coherent, as they are and as packets want it; the others are not.
 template <int N, typename Set>
 Task ray_task(const Source& source, Work work, Set Workload::*set) {
   const auto run = [=] {
@@ -58,7 +65,7 @@ Task ray_task(const Source& source, Work work, Set Workload::*set) {
     const std::shared_ptr<EmbreeScene> scene = source.scene(*workload);
     Set& rays = (*workload).*set;
     in_chunks(rays.rays.size(), source.context.threads, [&](std::size_t first, std::size_t count) {
-      trace_part<N>(scene->get(), work != Work::Diffuse,
+      trace_part<N>(scene->get(), work == Work::Camera || work == Work::Shadow,
                     std::span<const Ray>(rays.rays).subspan(first, count), &rays.answers[first]);
     });
     return rays.rays.size();
@@ -76,7 +83,9 @@ template <int N>
 void add_ray_tasks(const Source& source, std::vector<Task>& tasks) {
   tasks.push_back(ray_task<N>(source, Work::Camera, &Workload::camera));
   tasks.push_back(ray_task<N>(source, Work::Shadow, &Workload::shadow));
+  tasks.push_back(ray_task<N>(source, Work::Occlusion, &Workload::occlusion));
   tasks.push_back(ray_task<N>(source, Work::Diffuse, &Workload::diffuse));
+  tasks.push_back(ray_task<N>(source, Work::Random, &Workload::random));
 }
 
 // From the mesh to a scene ready for rays, the device and the copy of the mesh included: what plumb's
@@ -84,7 +93,8 @@ void add_ray_tasks(const Source& source, std::vector<Task>& tasks) {
 Task build_task(const Source& source) {
   const auto run = [=] {
     const std::shared_ptr<Workload> workload = source.context.workload();
-    const EmbreeScene scene(peers::EmbreeDevice(source.context.threads), workload->view.mesh, source.robust);
+    const EmbreeScene scene(peers::EmbreeDevice(source.context.threads), workload->view.mesh, source.robust,
+                            source.quality);
     return workload->view.mesh.triangles.size();
   };
   const auto check = [=] {
@@ -99,13 +109,19 @@ Task build_task(const Source& source) {
 std::vector<Task> embree_tasks(const Context& context) {
   std::vector<Task> tasks;
   const auto scenes = std::make_shared<Shelf<EmbreeScene>>(context.trees);
-  for (const bool robust : {false, true}) {
-    const Source source{context, scenes, robust};
+  for (const RTCBuildQuality quality :
+       {RTC_BUILD_QUALITY_MEDIUM, RTC_BUILD_QUALITY_HIGH, RTC_BUILD_QUALITY_LOW}) {
+    const Source source{context, scenes, false, quality};
+    tasks.push_back(build_task(source));
+    if (quality == RTC_BUILD_QUALITY_LOW) continue;
     add_ray_tasks<1>(source, tasks);
+    add_ray_tasks<4>(source, tasks);
     add_ray_tasks<8>(source, tasks);
     add_ray_tasks<16>(source, tasks);
-    tasks.push_back(build_task(source));
   }
+  const Source robust{context, scenes, true, RTC_BUILD_QUALITY_MEDIUM};
+  add_ray_tasks<1>(robust, tasks);
+  add_ray_tasks<16>(robust, tasks);
   return tasks;
 }
 

@@ -7,8 +7,8 @@
 
 namespace plumb::bench {
 
-/// Embree on the same rays: its 1, 8 and 16 wide calls on scenes of medium build quality, fast and
-/// robust, and their builds. Empty where it is not installed.
+/// Embree on the same rays: its 1, 4, 8 and 16 wide calls on scenes of medium and high build quality, two of
+/// them robust as well, and the builds of low, medium and high quality. Empty where it is not installed.
 std::vector<Task> embree_tasks(const Context& context);
 
 /// "Embree 3.13.5"; empty where it is not installed.

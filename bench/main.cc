@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -34,6 +35,11 @@ std::vector<Task> all_tasks(const ViewName& name, const Options& options, int th
   const Context context{name, threads, trees, workload};
   std::vector<Task> tasks = our_tasks(context, options.targets);
   for (Task& task : embree_tasks(context)) tasks.push_back(std::move(task));
+  const auto unwanted = [&](const Task& task) {
+    const std::vector<std::string>& wanted = options.methods;
+    return !wanted.empty() && std::find(wanted.begin(), wanted.end(), task.method) == wanted.end();
+  };
+  std::erase_if(tasks, unwanted);
   return tasks;
 }
 
@@ -98,7 +104,11 @@ void print_head(const Options& options) {
   std::cout << machine_name() << "; " << compiler_name() << "; medians of " << options.rounds << " rounds.\n";
   const std::string peer = embree_version();
   if (peer.empty()) return;
-  std::cout << "In bold the speed as a multiple of `" << kEmbreeBaseline << "` (" << peer
+  const std::string baseline = options.peers ? "the fastest of the calls and trees of its fast mode that are "
+                                               "listed, for `-single` of its single-ray calls and for builds "
+                                               "that of the same quality"
+                                             : std::string("`") + kEmbreeBaseline + "`";
+  std::cout << "In bold the speed as a multiple of " << baseline << " (" << peer
             << ") in the same run, a frame's as a multiple of its camera rays'; then the figure itself.\n";
 }
 
@@ -109,7 +119,8 @@ void print_tables(const Options& options) {
     for (const ViewName& name : options.views) {
       const auto workloads = std::make_shared<Shelf<Workload>>(1);
       const std::vector<Task> tasks = all_tasks(name, options, threads, kTreesOfTable, workloads);
-      const std::vector<Row> rows = measure(tasks, options.rounds, threads);
+      const std::vector<Row> rows =
+          measure(tasks, options.rounds, threads, options.peers ? Baseline::Best : Baseline::SingleRays);
       const std::shared_ptr<Workload> workload = workloads->get(name.title(), nullptr);
       print_view(name, *workload, threads);
       print_markdown(std::cout, rows);

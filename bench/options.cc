@@ -21,6 +21,8 @@ before a time counts; those of the fast and the watertight arithmetic and of Emb
   SCENE            builtin:NAME[:SIZE], a mesh FILE, or FILE@VIEW; unless said, the built-in scenes
   --cameras=LIST   the views of mesh files, a line each: scene view eye target up fov_y_degrees
   --table          tables in Markdown, all methods interleaved, instead of Google Benchmark's list
+  --peers          the same, against the fastest of all of Embree's calls and trees
+  --methods=LIST   only these methods, with commas: raster,bvh8,bvh8-single,bvh8-best-build,embree-fast-16
   --rounds=N       how often the table runs each method; it shows medians (5)
   --threads=LIST   counts or "all", with commas (1,all)
   --simd=LIST      instruction sets, with commas, or "all" (all)
@@ -90,6 +92,10 @@ Options parse_options(int argc, const char* const* argv) {
       options.help = true;
     } else if (key == "--table") {
       options.table = true;
+    } else if (key == "--peers") {
+      options.table = options.peers = true;
+    } else if (key == "--methods") {
+      for (const std::string_view part : split(value, ',')) options.methods.emplace_back(part);
     } else if (key == "--cameras") {
       cameras = value;
     } else if (key == "--rounds") {

@@ -11,7 +11,9 @@ namespace plumb::bench {
 /// What the command line asks for, apart from Google Benchmark's own flags.
 struct Options {
   bool help = false;
-  bool table = false;  ///< the Markdown table instead of Google Benchmark
+  bool peers = false;                ///< the table, with the peer's best as the baseline
+  std::vector<std::string> methods;  ///< the tasks' methods; empty: all
+  bool table = false;                ///< the Markdown table instead of Google Benchmark
   int width = 1280, height = 720;
   int rounds = 5;            ///< of the table
   std::vector<int> threads;  ///< each at least 1

@@ -25,7 +25,9 @@ struct TreeSource {
   bool exact() const { return options.arithmetic == Arithmetic::Exact; }
   std::string method() const {
     constexpr const char* kSuffix[] = {"-fast", "-watertight", ""};
-    return "bvh" + std::to_string(options.width) + kSuffix[static_cast<int>(options.arithmetic)];
+    constexpr const char* kQuality[] = {"-fast-build", "", "-best-build"};
+    return "bvh" + std::to_string(options.width) + kSuffix[static_cast<int>(options.arithmetic)] +
+           kQuality[static_cast<int>(options.quality)];
   }
   // The binary tree is plain scalar code.
   std::string target() const { return options.width == 2 ? "" : std::string(simd_name(options.simd)); }
@@ -48,6 +50,19 @@ void trace(const Bvh& bvh, RaySet<bool>& set, int threads) {
   });
 }
 
+// One call for each ray.
+void trace_singly(const Bvh& bvh, RaySet<Hit>& set, int threads) {
+  in_chunks(set.rays.size(), threads, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) set.answers[i] = bvh.closest(set.rays[i]);
+  });
+}
+
+void trace_singly(const Bvh& bvh, RaySet<bool>& set, int threads) {
+  in_chunks(set.rays.size(), threads, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) set.answers[i] = bvh.any(set.rays[i]);
+  });
+}
+
 // Of an exact method every bit counts, of the others what counts of a peer.
 std::size_t wrong_answers(const RaySet<Hit>& set, bool exact) {
   return exact ? differences(set) : other_triangles(set);
@@ -55,11 +70,15 @@ std::size_t wrong_answers(const RaySet<Hit>& set, bool exact) {
 std::size_t wrong_answers(const RaySet<bool>& set, bool) { return differences(set); }
 
 template <typename Set>
-Task ray_task(const TreeSource& source, Work work, Set Workload::*set) {
+Task ray_task(const TreeSource& source, Work work, Set Workload::*set, bool singly) {
   const auto run = [=] {
     const std::shared_ptr<Workload> workload = source.context.workload();
     Set& rays = (*workload).*set;
-    trace(*source.tree(*workload), rays, source.context.threads);
+    if (singly) {
+      trace_singly(*source.tree(*workload), rays, source.context.threads);
+    } else {
+      trace(*source.tree(*workload), rays, source.context.threads);
+    }
     return rays.rays.size();
   };
   const auto check = [=] {
@@ -68,7 +87,7 @@ Task ray_task(const TreeSource& source, Work work, Set Workload::*set) {
     run();
     return wrong_answers(rays, source.exact());
   };
-  return {source.method(), source.target(), work, source.exact(), check, run};
+  return {source.method() + (singly ? "-single" : ""), source.target(), work, source.exact(), check, run};
 }
 
 // A task that draws a frame. `draw(workload)` must leave it in workload.frame.
@@ -125,10 +144,16 @@ Task build_task(const TreeSource& source) {
 }
 
 // What a tree is asked for. The build does not depend on the instruction set or the arithmetic.
+void add_ray_tasks(const TreeSource& source, bool singly, std::vector<Task>& tasks) {
+  tasks.push_back(ray_task(source, Work::Camera, &Workload::camera, singly));
+  tasks.push_back(ray_task(source, Work::Shadow, &Workload::shadow, singly));
+  tasks.push_back(ray_task(source, Work::Occlusion, &Workload::occlusion, singly));
+  tasks.push_back(ray_task(source, Work::Diffuse, &Workload::diffuse, singly));
+  tasks.push_back(ray_task(source, Work::Random, &Workload::random, singly));
+}
+
 void add_tree_tasks(const TreeSource& source, bool with_build, std::vector<Task>& tasks) {
-  tasks.push_back(ray_task(source, Work::Camera, &Workload::camera));
-  tasks.push_back(ray_task(source, Work::Shadow, &Workload::shadow));
-  tasks.push_back(ray_task(source, Work::Diffuse, &Workload::diffuse));
+  add_ray_tasks(source, false, tasks);
   tasks.push_back(cast_task(source));
   if (with_build) tasks.push_back(build_task(source));
 }
@@ -147,8 +172,15 @@ std::vector<Task> our_tasks(const Context& context, const std::vector<Simd>& tar
       source.options.width = width;
       source.options.simd = simd;
       add_tree_tasks(source, simd == targets.front(), tasks);
+      if (width == 8) add_ray_tasks(source, true, tasks);
     }
   }
+  for (const Quality quality : {Quality::Fast, Quality::Best}) {
+    source.options.quality = quality;
+    source.options.simd = targets.front();
+    add_tree_tasks(source, true, tasks);
+  }
+  source.options.quality = Quality::Balanced;
   for (const Arithmetic arithmetic : {Arithmetic::Watertight, Arithmetic::Fast}) {
     for (const Simd simd : targets) {
       source.options.arithmetic = arithmetic;

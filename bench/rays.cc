@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "plumb/bvh.h"
@@ -103,6 +104,7 @@ Start start_of(const View& view, const Ray& ray, const Hit& hit) {
 void add_secondary_rays(Workload& workload) {
   const std::span<const Hit> hits = workload.camera.expected_span();
   const glm::dvec3 light = light_near_eye(workload.view.camera, hits);
+  const auto reach = static_cast<float>(0.05 * median_depth(hits));
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].id == kNone) continue;
     const Start start = start_of(workload.view, workload.camera.rays[i], hits[i]);
@@ -114,7 +116,31 @@ void add_secondary_rays(Workload& workload) {
     const glm::dvec3 direction = start.normal + on_sphere(random);
     workload.diffuse.rays.push_back(
         {origin, 0.0f, glm::vec3(glm::normalize(direction)), std::numeric_limits<float>::infinity()});
+    const glm::dvec3 other = start.normal + on_sphere(random);
+    workload.occlusion.rays.push_back({origin, 0.0f, glm::vec3(glm::normalize(other)), reach});
   }
+}
+
+std::vector<Ray> random_rays(MeshView mesh, std::size_t count) {
+  glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi(-lo);
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : {triangle.x, triangle.y, triangle.z}) {
+      const glm::dvec3 p(mesh.positions[corner]);
+      if (!std::isfinite(p.x + p.y + p.z)) continue;
+      lo = glm::min(lo, p);
+      hi = glm::max(hi, p);
+    }
+  }
+  std::vector<Ray> rays;
+  if (!(lo.x <= hi.x)) return rays;
+  Random random(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 share = 0.5 * (glm::dvec3(random.next(), random.next(), random.next()) + 1.0);
+    const glm::dvec3 direction = on_sphere(random);
+    rays.push_back({glm::vec3(lo + share * (hi - lo)), 0.0f, glm::vec3(direction),
+                    std::numeric_limits<float>::infinity()});
+  }
+  return rays;
 }
 
 }  // namespace
@@ -150,7 +176,7 @@ std::unique_ptr<Workload> make_workload(View view) {
   options.width = 2;
   const Bvh reference(view.mesh, options);
   const Frame clear(view.camera.width, view.camera.height);
-  auto workload = std::make_unique<Workload>(Workload{std::move(view), {}, {}, {}, clear, clear});
+  auto workload = std::make_unique<Workload>(Workload{std::move(view), {}, {}, {}, {}, {}, clear, clear});
   cast(reference, workload->view.camera, workload->expected_frame);
 
   workload->camera.rays = camera_rays(workload->view.camera);
@@ -158,9 +184,14 @@ std::unique_ptr<Workload> make_workload(View view) {
   reference.closest(workload->camera.rays, workload->camera.expected_span());
   add_secondary_rays(*workload);
   make_room(workload->shadow);
+  make_room(workload->occlusion);
   make_room(workload->diffuse);
+  workload->random.rays = random_rays(workload->view.mesh, workload->camera.rays.size() / 4);
+  make_room(workload->random);
   reference.any(workload->shadow.rays, workload->shadow.expected_span());
+  reference.any(workload->occlusion.rays, workload->occlusion.expected_span());
   reference.closest(workload->diffuse.rays, workload->diffuse.expected_span());
+  reference.closest(workload->random.rays, workload->random.expected_span());
   return workload;
 }
 

@@ -36,11 +36,15 @@ void spoil(RaySet<bool>& set);
 /// of the camera rays they start from. Shadow rays run from what the camera sees to a point light near the
 /// eye, a quarter of the median depth up and to the right. Diffuse rays start there too, spread over the side
 /// that the camera sees by the cosine law, from a generator seeded by the pixel: the same rays everywhere.
+/// Occlusion rays are others of the same law that end after a twentieth of the median depth, for ambient
+/// occlusion. Random rays start anywhere in the scene's box and go anywhere, a quarter as many as pixels.
 struct Workload {
   View view;
   RaySet<Hit> camera;
   RaySet<bool> shadow;
+  RaySet<bool> occlusion;
   RaySet<Hit> diffuse;
+  RaySet<Hit> random;
   Frame expected_frame, frame;
 };
 

@@ -12,7 +12,7 @@
 namespace plumb::bench {
 namespace {
 
-bool is_rate(Work work) { return work == Work::Camera || work == Work::Shadow || work == Work::Diffuse; }
+bool is_rate(Work work) { return work != Work::Frame && work != Work::Build; }
 
 Row& row_of(std::vector<Row>& rows, const Task& task) {
   for (Row& row : rows) {
@@ -62,22 +62,57 @@ void time_work(const std::vector<Task>& tasks, Work work, int rounds, int thread
   }
 }
 
-// Rays and builds compare with the peer's; a frame with as many of its camera rays, which have been made
-// for it.
-void add_ratios(std::size_t pixels, std::vector<Row>& rows) {
-  const auto peer =
-      std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.method == kEmbreeBaseline; });
-  if (peer == rows.end()) return;
-  std::array<double, kWorkCount> baseline;
-  for (const Work work : kWorks) baseline[static_cast<std::size_t>(work)] = cell_of(*peer, work).figure;
-  baseline[static_cast<std::size_t>(Work::Frame)] =
-      static_cast<double>(pixels) / cell_of(*peer, Work::Camera).figure * 1e-3;
+// Of rows whose method `counts`, the fastest at each work; 0 where none does it.
+template <typename Counts>
+std::array<double, kWorkCount> fastest(const std::vector<Row>& rows, const Counts& counts) {
+  std::array<double, kWorkCount> best{};
+  for (const Row& row : rows) {
+    if (!counts(row.method)) continue;
+    for (const Work work : kWorks) {
+      const auto w = static_cast<std::size_t>(work);
+      const double figure = row.cells[w].figure;
+      if (figure != 0 && (best[w] == 0 || (is_rate(work) ? figure > best[w] : figure < best[w])))
+        best[w] = figure;
+    }
+  }
+  return best;
+}
+
+bool begins_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
+bool ends_with(const std::string& text, const std::string& with) {
+  return text.size() >= with.size() && text.compare(text.size() - with.size(), with.size(), with) == 0;
+}
+
+// What a method is compared with. Against the best, calls for one ray have the peer's of their kind, and
+// builds the one of their quality.
+std::array<double, kWorkCount> baseline_of(const std::string& method, Baseline baseline,
+                                           const std::vector<Row>& rows) {
+  if (baseline == Baseline::SingleRays)
+    return fastest(rows, [](const std::string& m) { return m == kEmbreeBaseline; });
+  const bool single = ends_with(method, "-single");
+  std::array<double, kWorkCount> best = fastest(rows, [&](const std::string& m) {
+    return begins_with(m, "embree-fast") && (!single || ends_with(m, "-1"));
+  });
+  const char* const quality = ends_with(method, "-fast-build")   ? "embree-fast-low-1"
+                              : ends_with(method, "-best-build") ? "embree-fast-high-1"
+                                                                 : "embree-fast-1";
+  const auto build = static_cast<std::size_t>(Work::Build);
+  best[build] = fastest(rows, [&](const std::string& m) { return m == quality; })[build];
+  return best;
+}
+
+// A frame compares with as many of the peer's camera rays, which have been made for it.
+void add_ratios(std::size_t pixels, Baseline baseline, std::vector<Row>& rows) {
   for (Row& row : rows) {
+    std::array<double, kWorkCount> base = baseline_of(row.method, baseline, rows);
+    const double camera = base[static_cast<std::size_t>(Work::Camera)];
+    base[static_cast<std::size_t>(Work::Frame)] =
+        camera == 0 ? 0 : static_cast<double>(pixels) / camera * 1e-3;
     for (const Work work : kWorks) {
       Cell& cell = cell_of(row, work);
-      if (cell.figure == 0) continue;
-      const double base = baseline[static_cast<std::size_t>(work)];
-      cell.ratio = is_rate(work) ? cell.figure / base : base / cell.figure;
+      const double figure = base[static_cast<std::size_t>(work)];
+      if (cell.figure == 0 || figure == 0) continue;
+      cell.ratio = is_rate(work) ? cell.figure / figure : figure / cell.figure;
     }
   }
 }
@@ -97,7 +132,7 @@ std::string text_of(const Cell& cell) {
 
 }  // namespace
 
-std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads,
+std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads, Baseline baseline,
                          const std::function<void(const Task&)>& after_check) {
   std::vector<Row> rows;
   std::size_t pixels = 0;
@@ -106,7 +141,7 @@ std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads
     if (task.work == Work::Frame) pixels = task.run();
   }
   for (const Work work : kWorks) time_work(tasks, work, rounds, threads, rows);
-  add_ratios(pixels, rows);
+  add_ratios(pixels, baseline, rows);
   return rows;
 }
 
@@ -129,8 +164,8 @@ std::vector<Row> mean(const std::vector<std::vector<Row>>& tables) {
 }
 
 void print_markdown(std::ostream& out, const std::vector<Row>& rows) {
-  out << "| method | SIMD | camera Mrays/s | shadow Mrays/s | diffuse Mrays/s | frame ms | build ms | other "
-         "answers |\n|---|---|---|---|---|---|---|---|\n";
+  out << "| method | SIMD | camera Mrays/s | shadow Mrays/s | occlusion Mrays/s | diffuse Mrays/s | random "
+         "Mrays/s | frame ms | build ms | other answers |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     out << "| " << row.method << " | " << row.target;
     std::size_t wrong = 0;

@@ -25,10 +25,14 @@ struct Row {
   std::array<Cell, kWorkCount> cells;
 };
 
+/// What speeds are given as multiples of: Embree's single-ray call, or scene by scene the fastest of all its
+/// calls on all its trees (fast mode), and for builds the one of the same quality.
+enum class Baseline { SingleRays, Best };
+
 /// Checks all tasks, then times them, those of one kind of work in turns. Throws plumb::Error when an exact
 /// method's answers are not the reference's: then nothing is timed. With `after_check` that is for the caller
 /// to judge: it is called after each check, when the task's answers are still in the workload.
-std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads,
+std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads, Baseline baseline,
                          const std::function<void(const Task&)>& after_check = nullptr);
 
 /// The geometric mean of each cell over tables of the same rows.

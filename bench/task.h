@@ -13,12 +13,14 @@
 namespace plumb::bench {
 
 /// What a method is asked to do.
-enum class Work { Camera, Shadow, Diffuse, Frame, Build };
-inline constexpr Work kWorks[] = {Work::Camera, Work::Shadow, Work::Diffuse, Work::Frame, Work::Build};
+enum class Work { Camera, Shadow, Occlusion, Diffuse, Random, Frame, Build };
+inline constexpr Work kWorks[] = {Work::Camera, Work::Shadow, Work::Occlusion, Work::Diffuse,
+                                  Work::Random, Work::Frame,  Work::Build};
 inline constexpr std::size_t kWorkCount = std::size(kWorks);
 
 inline const char* work_name(Work work) {
-  constexpr const char* kNames[kWorkCount] = {"camera", "shadow", "diffuse", "frame", "build"};
+  constexpr const char* kNames[kWorkCount] = {"camera", "shadow", "occlusion", "diffuse",
+                                              "random", "frame",  "build"};
   return kNames[static_cast<std::size_t>(work)];
 }
 

@@ -56,6 +56,18 @@ template <int N>
 struct Packet;
 
 template <>
+struct Packet<4> {
+  using Rays = RTCRay4;
+  using RayHits = RTCRayHit4;
+  static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, RayHits* query) {
+    rtcIntersect4(valid, scene, context, query);
+  }
+  static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, Rays* query) {
+    rtcOccluded4(valid, scene, context, query);
+  }
+};
+
+template <>
 struct Packet<8> {
   using Rays = RTCRay8;
   using RayHits = RTCRayHit8;

@@ -37,14 +37,16 @@ EmbreeDevice::EmbreeDevice(int threads)
   check_error(device_, "to make a device");
 }
 
-EmbreeScene::EmbreeScene(const EmbreeDevice& device, MeshView mesh, bool robust) : device_(device) {
+EmbreeScene::EmbreeScene(const EmbreeDevice& device, MeshView mesh, bool robust, RTCBuildQuality quality)
+    : device_(device) {
   const FlushMode flush;
   scene_ = rtcNewScene(device_.get());
   rtcSetSceneFlags(scene_, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetSceneBuildQuality(scene_, quality);
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   copy(geometry, mesh.positions, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3);
   copy(geometry, mesh.triangles, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3);
+  rtcSetGeometryBuildQuality(geometry, quality);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);

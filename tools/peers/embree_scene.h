@@ -30,10 +30,11 @@ class EmbreeDevice {
   RTCDevice device_;
 };
 
-/// A mesh in an Embree scene of medium build quality. Throws plumb::Error where Embree fails.
+/// A mesh in an Embree scene. Throws plumb::Error where Embree fails.
 class EmbreeScene {
  public:
-  EmbreeScene(const EmbreeDevice& device, MeshView mesh, bool robust);
+  EmbreeScene(const EmbreeDevice& device, MeshView mesh, bool robust,
+              RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM);
   ~EmbreeScene() { rtcReleaseScene(scene_); }
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;

@@ -25,8 +25,13 @@ std::vector<Task> tasks_of(const bench::ViewName& name, const SpeedOptions& opti
   const bench::Context context{name, options.threads, kTrees, [workload] { return workload; }};
   std::vector<Task> tasks = bench::our_tasks(context, options.targets);
   for (Task& task : bench::embree_tasks(context)) tasks.push_back(std::move(task));
-  // Builds have no errors.
-  std::erase_if(tasks, [](const Task& task) { return task.work == Work::Build; });
+  // Builds have no errors, and what is left out of the rays and rows would show the same ones.
+  const auto is_left_out = [](const Task& task) {
+    const auto names = [&](const char* part) { return task.method.find(part) != std::string::npos; };
+    return task.work == Work::Build || task.work == Work::Occlusion || task.work == Work::Random ||
+           names("-single") || names("-build") || names("-low") || names("-high") || names("embree-fast-4");
+  };
+  std::erase_if(tasks, is_left_out);
   return tasks;
 }
 
@@ -116,8 +121,8 @@ SpeedScene measure_scene(const std::string& scene, const SpeedOptions& options,
                     {},           depth_picture(workload->expected_frame), {}};
   const std::vector<Task> tasks = tasks_of(name, options, workload);
   std::size_t checked = 0;
-  const std::vector<bench::Row> speeds =
-      bench::measure(tasks, options.rounds, options.threads, [&](const Task& task) {
+  const std::vector<bench::Row> speeds = bench::measure(
+      tasks, options.rounds, options.threads, bench::Baseline::SingleRays, [&](const Task& task) {
         note_errors(task, *workload, result);
         if (progress) progress(0.5 * static_cast<double>(++checked) / static_cast<double>(tasks.size()));
       });
