@@ -54,7 +54,7 @@ struct Scratch {
 
 class Builder {
  public:
-  Builder(const BinnedSahOptions& options, Progress& progress, MeshView mesh);
+  Builder(const BinnedSahOptions& options, Progress& progress, TriangleRefs refs);
   BinaryTree run();
 
  private:
@@ -83,11 +83,11 @@ class Builder {
   std::atomic<bool> stop_{false};
 };
 
-Builder::Builder(const BinnedSahOptions& options, Progress& progress, MeshView mesh)
+Builder::Builder(const BinnedSahOptions& options, Progress& progress, TriangleRefs refs)
     : options_(options),
       rules_(options, "BinnedSahOptions"),
       progress_(progress),
-      refs_(make_triangle_refs(mesh)),
+      refs_(std::move(refs)),
       other_(std::make_unique_for_overwrite<TriangleRef[]>(refs_.count)),
       buffer_{refs_.refs.get(), other_.get()},
       unit_(splat(refs_.unit)),
@@ -272,9 +272,13 @@ BinaryTree build_binned_sah(MeshView mesh, const BinnedSahOptions& options, Prog
   BinaryTree tree;
   in_arena(options.threads, [&] {
     const DefaultFpMode guard;
-    tree = Builder(options, progress, mesh).run();
+    tree = build_binned_sah(make_triangle_refs(mesh), options, progress);
   });
   return tree;
+}
+
+BinaryTree build_binned_sah(TriangleRefs items, const BinnedSahOptions& options, Progress& progress) {
+  return Builder(options, progress, std::move(items)).run();
 }
 
 }  // namespace plumb::detail

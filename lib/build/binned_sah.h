@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "build/binary_tree.h"
 #include "build/sah_rules.h"
+#include "build/triangle_refs.h"
 #include "plumb/mesh.h"
 
 namespace plumb::detail {
@@ -22,5 +23,9 @@ struct BinnedSahOptions : SahOptions {
 /// max_depth * n, and on any but contrived meshes is n log n. Within a leaf, triangles keep the mesh's
 /// order.
 BinaryTree build_binned_sah(MeshView mesh, const BinnedSahOptions& options, Progress& progress);
+
+/// The same over any items with boxes; the tree's order holds their indices. Call it in an arena, whose
+/// threads it takes, under the default floating-point mode.
+BinaryTree build_binned_sah(TriangleRefs items, const BinnedSahOptions& options, Progress& progress);
 
 }  // namespace plumb::detail

@@ -123,11 +123,11 @@ bool ray_meets(const Ray& ray, const Triangle& triangle, bool covered) {
   const float tmin = ray.tmin > 0.0f ? ray.tmin : 0.0f;  // not -0, which depth_limit() does not take
   const double tmax = std::min(double{ray.tmax}, double{std::numeric_limits<float>::max()});
   // What is above the float after tmin rounds to that at least; what is below tmax to no more.
-  if (stage.certainly_below(double{tmin}) || stage.certainly_above(double{depth_limit(ray.tmax)})) return false;
+  if (stage.certainly_below(double{tmin}) || stage.certainly_above(double{depth_limit(ray.tmax)}))
+    return false;
   if (!covered && !stage.certainly_covered() && !exactly_covered(ray.origin, ray.direction, triangle))
     return false;
-  if (stage.certainly_above(double{depth_limit(tmin)}) && stage.certainly_below(tmax))
-    return true;
+  if (stage.certainly_above(double{depth_limit(tmin)}) && stage.certainly_below(tmax)) return true;
   float t = 0.0f;
   if (!stage.certain_depth(t) && !exact_depth(ray.origin, ray.direction, triangle, t)) return false;
   return std::isfinite(t) && depth_counts(ray, t);

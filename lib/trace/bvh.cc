@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/simd_dispatch.h"
 #include "build/binned_sah.h"
+#include "build/clustered_sah.h"
 #include "build/mesh_check.h"
 #include "build/sweep_sah.h"
 #include "build/tree_statistics.h"
@@ -38,10 +39,15 @@ BinaryTree build_binary(MeshView mesh, int width, const BuildOptions& options) {
     set_costs(width, sweep);
     return detail::build_sweep_sah(mesh, sweep, progress);
   }
+  if (options.quality == Quality::Fast) {
+    detail::ClusteredSahOptions clustered;
+    set_costs(width, clustered);
+    clustered.threads = options.threads;
+    return detail::build_clustered_sah(mesh, clustered, progress);
+  }
   detail::BinnedSahOptions binned;
   set_costs(width, binned);
   binned.threads = options.threads;
-  if (options.quality == Quality::Fast) binned.bins = 8;
   return detail::build_binned_sah(mesh, binned, progress);
 }
 

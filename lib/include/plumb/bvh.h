@@ -11,7 +11,18 @@
 namespace plumb {
 
 /// How much time a build takes for how fast a tree. With Arithmetic::Exact the answers are the same.
-enum class Quality { Fast, Balanced, Best };
+enum class Quality {
+  /// Leaves are cut from the triangles' order along a Morton curve, and the surface area heuristic makes a tree
+  /// over them (Pantaleoni and Luebke 2010, "HLBVH"): for scenes that change every frame. About 1.3 times as
+  /// fast a build as Balanced, and rays a few percent slower; more where triangles are long and thin.
+  Fast,
+  /// The surface area heuristic with bins (Wald 2007, "On fast Construction of SAH-based Bounding Volume
+  /// Hierarchies").
+  Balanced,
+  /// Every place along every axis is tried for a split; takes about five times as long as Balanced, on one
+  /// thread.
+  Best,
+};
 
 /// How a ray is tested against boxes and triangles. Trees, their layouts and the traversal are the same for
 /// all three. Each returns the same bits on every instruction set.
