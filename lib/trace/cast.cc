@@ -4,8 +4,10 @@
 #include <array>
 #include <span>
 
+#include "base/fp_mode.h"
 #include "base/parallel.h"
 #include "frame/frame_check.h"
+#include "scene/pixel_direction.h"
 
 namespace plumb {
 namespace {
@@ -33,7 +35,14 @@ void cast_block(const Structure& structure, const Camera& camera, int x0, int y0
   std::array<Ray, kBlockSide * kBlockSide> rays;
   std::array<Hit, kBlockSide * kBlockSide> hits;
   std::size_t count = 0;
-  for_pixels(camera, x0, y0, [&](int x, int y) { rays[count++] = camera.ray(x, y); });
+  // What Camera::ray makes, with the mode set once.
+  detail::with_default_fp_mode([&] {
+    for_pixels(camera, x0, y0, [&](int x, int y) {
+      Ray& ray = rays[count++];
+      ray.origin = camera.eye;
+      ray.direction = detail::pixel_direction(camera, x, y);
+    });
+  });
   structure.closest(std::span<const Ray>(rays.data(), count), std::span<Hit>(hits.data(), count));
   const Hit* hit = hits.data();
   for_pixels(camera, x0, y0, [&](int x, int y) {
