@@ -12,7 +12,8 @@ namespace plumb {
 
 /// How much time a build takes for how fast a tree. With Arithmetic::Exact the answers are the same.
 enum class Quality {
-  /// Leaves are cut from the triangles' order along a Morton curve, and the surface area heuristic makes a tree
+  /// Leaves are cut from the triangles' order along a Morton curve, and the surface area heuristic makes a
+  /// tree
   /// over them (Pantaleoni and Luebke 2010, "HLBVH"): for scenes that change every frame. About 1.3 times as
   /// fast a build as Balanced, and rays a few percent slower; more where triangles are long and thin.
   Fast,

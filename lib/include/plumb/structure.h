@@ -34,8 +34,8 @@ class Structure {
   /// when the sizes differ.
   ///
   /// Faster than ray by ray, for rays are traced together (exact trees of 4 and 8 children; Wald, Slusallek,
-  /// Benthin and Wagner 2001, "Interactive Rendering with Coherent Ray Tracing"): best where neighbours in the
-  /// span have about the same origin and direction, as pixels in squares of 4x4 have, and well where they
+  /// Benthin and Wagner 2001, "Interactive Rendering with Coherent Ray Tracing"): best where neighbours in
+  /// the span have about the same origin and direction, as pixels in squares of 4x4 have, and well where they
   /// start near each other. Hand over some hundred rays or more at once. The answers do not depend on it.
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// Whether any hit of each ray counts, in the same way.
