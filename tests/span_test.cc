@@ -88,7 +88,7 @@ void spoil_some(hard::Random& random, std::vector<Ray>& rays) {
         ray.tmax = random.unit() + 1.0f;
         break;
       default:
-        ray.direction[random.below(3)] = random.one_in(2) ? 0.0f : kNan;
+        ray.direction[random.between(0, 2)] = random.one_in(2) ? 0.0f : kNan;
     }
   }
 }
