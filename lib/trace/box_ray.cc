@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb::detail {
 
@@ -37,6 +38,31 @@ bool ExactBoxRay::meets(const float lo[3], const float hi[3], float limit, float
   if (!(nearest <= farthest)) return false;
   near = lower_float(nearest);
   return true;
+}
+
+StayingBoxRay::StayingBoxRay(const Ray& ray, float greatest) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  // BoxRay's figures for the other axes, from a ray that moves on all of them.
+  Ray moving = ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ray.direction[axis] == 0.0f) moving.direction[axis] = 1.0f;
+  }
+  const BoxRay box_ray(moving, greatest);
+  tmin = box_ray.tmin;
+  int staying = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    origin_near[axis] = origin_far[axis] = box_ray.origin[axis];
+    inv_near[axis] = box_ray.inv_near[axis];
+    inv_far[axis] = box_ray.inv_far[axis];
+    near_row[axis] = box_ray.near_row[axis];
+    far_row[axis] = box_ray.far_row[axis];
+    if (ray.direction[axis] != 0.0f) continue;
+    ++staying;
+    origin_near[axis] = std::nextafter(box_ray.origin[axis], kInfinity);
+    origin_far[axis] = std::nextafter(box_ray.origin[axis], -kInfinity);
+    inv_near[axis] = inv_far[axis] = kInfinity;
+  }
+  in_range = box_ray.in_range && staying != 0;
 }
 
 template <int W>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "build/binary_tree.h"
 #include "plumb/ray.h"
@@ -87,6 +88,34 @@ struct BoxRay {
   float far_origin(int axis) const { return origin[axis]; }
   float near_inverse(int axis) const { return inv_near[axis]; }
   float far_inverse(int axis) const { return inv_far[axis]; }
+};
+
+/// BoxRay for a ray whose direction is 0 on one axis or two, on which it stays at o. The inverses are
+/// infinite there: a box that holds o gives -inf and +inf, any other one the same infinity twice or the wrong
+/// way round, and is culled as long as the limit is finite. So that no difference is 0 for a box that holds
+/// o, near planes are taken from the float above o, far ones from that below; 0 * inf is NaN, for a box that
+/// begins or ends there and so does not hold o. It is culled, or kept by the other axes alone, as the
+/// target's min and max have it.
+struct StayingBoxRay {
+  float origin_near[3], origin_far[3];
+  float inv_near[3];
+  float inv_far[3];
+  std::uint32_t near_row[3];
+  std::uint32_t far_row[3];
+  float tmin;
+  bool in_range;  ///< BoxRay's analysis holds on the other axes, and there is an axis to stay on
+
+  static constexpr float kUnderflow = BoxRay::kUnderflow;
+
+  StayingBoxRay(const Ray& ray, float greatest);
+
+  float near_origin(int axis) const { return origin_near[axis]; }
+  float far_origin(int axis) const { return origin_far[axis]; }
+  float near_inverse(int axis) const { return inv_near[axis]; }
+  float far_inverse(int axis) const { return inv_far[axis]; }
+
+  /// The limit to test boxes with: above every near value but infinite ones.
+  static float finite(float limit) { return std::min(limit, std::numeric_limits<float>::max()); }
 };
 
 /// The children of a node that the ray may meet, one bit each, by ExactBoxRay, with their near values.

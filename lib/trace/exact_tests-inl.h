@@ -43,7 +43,10 @@ class ExactTests {
   // `greatest` is the greatest |coordinate| of the scene's finite triangles.
   ExactTests(float greatest, const Ray& ray, float limit)
       : ray_(ray), box_ray_(ray, greatest), filter_(ray, greatest) {
-    if (!box_ray_.in_range) exact_ray_.emplace(ray);
+    if (HWY_UNLIKELY(!box_ray_.in_range)) {
+      staying_ray_.emplace(ray, greatest);
+      exact_ray_.emplace(ray);
+    }
     filter_.set_limit(limit);
   }
 
@@ -52,7 +55,7 @@ class ExactTests {
 
   HWY_INLINE std::uint32_t boxes(const WideNode<W>& node, float limit, float* near) const {
     return HWY_LIKELY(box_ray_.in_range) ? TestBoxes<W>(node, box_ray_, limit, near)
-                                         : meet_children<W>(node, *exact_ray_, limit, near);
+                                         : other_boxes(node, limit, near);
   }
 
   template <class Query>
@@ -101,6 +104,11 @@ class ExactTests {
   }
 
  private:
+  HWY_NOINLINE std::uint32_t other_boxes(const WideNode<W>& node, float limit, float* near) const {
+    return staying_ray_->in_range ? TestBoxes<W>(node, *staying_ray_, StayingBoxRay::finite(limit), near)
+                                  : meet_children<W>(node, *exact_ray_, limit, near);
+  }
+
   // Decides about one lane; true when the query is done.
   template <class Query>
   HWY_INLINE bool offer(const TriangleBlock<W>& block, size_t lane, bool covered, Query& query) const {
@@ -115,6 +123,7 @@ class ExactTests {
 
   const Ray& ray_;
   BoxRay box_ray_;
+  std::optional<StayingBoxRay> staying_ray_;
   std::optional<ExactBoxRay> exact_ray_;
   FilterRay filter_;
 };

@@ -26,6 +26,7 @@
 #include "exact/filter-inl.h"
 #include "exact/intersect.h"
 #include "hwy/highway.h"
+#include "trace/box_ray.h"
 #include "trace/exact_tests-inl.h"
 #include "trace/packet.h"
 #include "trace/packet_tests-inl.h"
@@ -187,7 +188,7 @@ class PacketTraversal {
     for (size_t i = hn::Lanes(d); i < kPacketRays; i += hn::Lanes(d)) {
       greatest = hn::Max(greatest, hn::Load(d, state_.limit + i));
     }
-    return hn::GetLane(hn::MaxOfLanes(d, greatest));
+    return StayingBoxRay::finite(hn::GetLane(hn::MaxOfLanes(d, greatest)));
   }
 
   void one_by_one(std::uint32_t child, std::uint32_t count, std::uint32_t rays) {
@@ -275,7 +276,7 @@ class PacketTraversal {
   const PacketSlabs& slabs_;
   State& state_;
   int few_;
-  float limit_;  // the greatest of the rays'
+  float limit_;  // the greatest of the rays', made finite
   std::uint32_t made_ = 0;
   static_assert(std::is_trivially_destructible_v<ExactTests<W>>);
   alignas(ExactTests<W>) unsigned char tests_[kPacketRays][sizeof(ExactTests<W>)];

@@ -31,6 +31,9 @@ struct alignas(64) PacketRays {
   const Ray* rays;                   ///< a span's
   std::uint32_t index[kPacketRays];  ///< which of them
   std::size_t count;
+  bool any_stays;
+  bool stays[3];       ///< on an axis where all directions are 0; a direction that is 0 among others makes no
+                       ///< packet
   bool common_origin;  ///< all origins are equal
   /// FilterRay's, of the longest direction; bounds only grow with it.
   float edge_scale, den_scale;

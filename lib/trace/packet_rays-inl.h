@@ -105,6 +105,7 @@ HWY_INLINE bool PrepareRays(PacketRays& packet) {
   V longest = zero;
   auto usable = hn::Eq(zero, zero);
   auto common = usable;
+  std::uint32_t zeros[3] = {};
   for (size_t i = 0; i < kPacketRays; i += hn::Lanes(d)) {
     const V given_tmin = hn::Load(d, packet.tmin + i);
     const V tmin = hn::IfThenElse(hn::Gt(given_tmin, zero), given_tmin, zero);
@@ -121,9 +122,11 @@ HWY_INLINE bool PrepareRays(PacketRays& packet) {
       const V origin = hn::Load(d, packet.origin[axis] + i);
       const V magnitude = hn::Abs(direction);
       // False for NaN and infinities.
+      const auto stays = hn::Eq(direction, zero);
+      zeros[axis] |= MaskBits(d, stays) << i;
       usable = hn::And(usable,
                        hn::And(hn::Lt(hn::Abs(origin), hn::Set(d, FilterRay::kPlainCoordinate)),
-                               hn::And(hn::Gt(magnitude, hn::Set(d, 0x1p-60f)),
+                               hn::And(hn::Or(hn::Gt(magnitude, hn::Set(d, 0x1p-60f)), stays),
                                        hn::Lt(magnitude, hn::Set(d, 0.25f * FilterRay::kPlainDirection)))));
       common = hn::And(common, hn::Eq(origin, hn::Set(d, packet.origin[axis][0])));
       length = hn::Add(length, magnitude);
@@ -138,6 +141,12 @@ HWY_INLINE bool PrepareRays(PacketRays& packet) {
   packet.edge_scale = FilterRay::kEdgeScale * d_norm;
   packet.den_scale = FilterRay::kDenScale * d_norm;
   packet.common_origin = hn::AllTrue(d, common);
+  for (int axis = 0; axis < 3; ++axis) {
+    packet.stays[axis] = zeros[axis] == kWholePacket;
+    if (zeros[axis] != 0 && !packet.stays[axis]) return false;
+  }
+  packet.any_stays = packet.stays[0] || packet.stays[1] || packet.stays[2];
+  if (packet.stays[0] && packet.stays[1] && packet.stays[2]) return false;  // no direction
   return hn::AllTrue(d, usable);
 }
 
@@ -147,7 +156,7 @@ HWY_INLINE bool MakePacket(float greatest, PacketRays& packet, PacketSlabs& slab
   slabs.tmin = EndsOf(packet.tmin).least;
   float box_norm = 0.0f;
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    const bool forward = packet.direction[axis][0] > 0.0f;
+    const bool forward = packet.direction[axis][0] >= 0.0f;
     slabs.near_row[axis] = 2 * axis + (forward ? 0 : 1);
     slabs.far_row[axis] = 2 * axis + (forward ? 1 : 0);
     // All operations round monotonically, so the longest direction has the inverse nearest to 0.
@@ -167,6 +176,13 @@ HWY_INLINE bool MakePacket(float greatest, PacketRays& packet, PacketSlabs& slab
       const LaneEnds origin = EndsOf(packet.origin[axis]);
       slabs.origin_near[axis] = forward ? origin.most : origin.least;
       slabs.origin_far[axis] = forward ? origin.least : origin.most;
+    }
+    if (packet.stays[axis]) {
+      // As StayingBoxRay has it.
+      constexpr float kInfinity = std::numeric_limits<float>::infinity();
+      slabs.origin_near[axis] = std::nextafter(slabs.origin_near[axis], kInfinity);
+      slabs.origin_far[axis] = std::nextafter(slabs.origin_far[axis], -kInfinity);
+      slabs.inv_near[axis] = slabs.inv_far[axis] = kInfinity;
     }
   }
   packet.box_scale = 16.0f * 0x1p-24f * std::max(box_norm, FilterRay::kLeastDirection);

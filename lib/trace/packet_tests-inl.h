@@ -23,12 +23,9 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The rays that may meet a box no farther than their limits, one bit each: BoxRay's test, which finds the
-// same in a lane as it does for the ray alone. `bounds` are a child's, a row of a node's bounds after the
-// other.
-template <int W>
-HWY_INLINE std::uint32_t MeetBox(const PacketRays& packet, const PacketSlabs& slabs, const float* limit,
-                                 const float* bounds) {
+template <bool kStays, int W>
+HWY_INLINE std::uint32_t MeetBoxIf(const PacketRays& packet, const PacketSlabs& slabs, const float* limit,
+                                   const float* bounds) {
   const hn::CappedTag<float, kPacketRays> d;
   using V = hn::Vec<decltype(d)>;
   std::uint32_t met = 0;
@@ -37,8 +34,17 @@ HWY_INLINE std::uint32_t MeetBox(const PacketRays& packet, const PacketSlabs& sl
     V farthest = hn::Load(d, limit + i);
     for (int axis = 0; axis < 3; ++axis) {
       const V origin = hn::Load(d, packet.origin[axis] + i);
-      const V to_near = hn::Sub(hn::Set(d, bounds[slabs.near_row[axis] * W]), origin);
-      const V to_far = hn::Sub(hn::Set(d, bounds[slabs.far_row[axis] * W]), origin);
+      const V near_plane = hn::Set(d, bounds[slabs.near_row[axis] * W]);
+      const V far_plane = hn::Set(d, bounds[slabs.far_row[axis] * W]);
+      if constexpr (kStays) {
+        if (packet.stays[axis]) {
+          const auto inside = hn::And(hn::Ge(origin, near_plane), hn::Le(origin, far_plane));
+          farthest = hn::IfThenElse(inside, farthest, hn::Set(d, -1.0f));
+          continue;
+        }
+      }
+      const V to_near = hn::Sub(near_plane, origin);
+      const V to_far = hn::Sub(far_plane, origin);
       nearest = hn::Max(nearest, hn::Mul(to_near, hn::Load(d, packet.inv_near[axis] + i)));
       farthest = hn::Min(farthest, hn::Mul(to_far, hn::Load(d, packet.inv_far[axis] + i)));
     }
@@ -46,6 +52,22 @@ HWY_INLINE std::uint32_t MeetBox(const PacketRays& packet, const PacketSlabs& sl
     met |= MaskBits(d, hn::Le(nearest, farthest)) << i;
   }
   return met;
+}
+
+template <int W>
+HWY_NOINLINE std::uint32_t MeetBoxStaying(const PacketRays& packet, const PacketSlabs& slabs,
+                                          const float* limit, const float* bounds) {
+  return MeetBoxIf<true, W>(packet, slabs, limit, bounds);
+}
+
+// The rays that may meet a box no farther than their limits, one bit each: BoxRay's test, which finds the
+// same in a lane as it does for the ray alone; on an axis where the rays stay it is exact. `bounds` are a
+// child's, a row of a node's bounds after the other.
+template <int W>
+HWY_INLINE std::uint32_t MeetBox(const PacketRays& packet, const PacketSlabs& slabs, const float* limit,
+                                 const float* bounds) {
+  return HWY_UNLIKELY(packet.any_stays) ? MeetBoxStaying<W>(packet, slabs, limit, bounds)
+                                        : MeetBoxIf<false, W>(packet, slabs, limit, bounds);
 }
 
 // What the filter (exact/filter-inl.h) takes of the triangles of a block, and no ray changes, computed for

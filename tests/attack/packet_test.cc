@@ -8,6 +8,7 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
+#include "trace/box_ray.h"
 #include "trace/box_test-inl.h"
 #include "trace/packet_rays-inl.h"
 #include "trace/packet_tests-inl.h"
@@ -93,18 +94,32 @@ void Boxes(const Ray* rays, const WideNode<8>& node, float greatest, LostRays& l
   HWY_ALIGN float near[8];
   float limit = -1.0f;
   for (const float of_ray : packet.limit) limit = HWY_MAX(limit, of_ray);
-  const std::uint32_t met = TestBoxes<8>(node, slabs, limit, near);
+  const std::uint32_t met = TestBoxes<8>(node, slabs, StayingBoxRay::finite(limit), near);
   for (size_t child = 0; child < 8; ++child) {
     const std::uint32_t together = MeetBox<8>(packet, slabs, packet.limit, &node.bounds[0][child]);
-    std::uint32_t alone_bits = 0;
+    std::uint32_t alone_bits = 0, exact_bits = 0;
+    bool stays = false;
     for (size_t i = 0; i < kPacketRays; ++i) {
-      const BoxRay alone(rays[i], greatest);
+      const BoxRay moving(rays[i], greatest);
+      const StayingBoxRay staying(rays[i], greatest);
       HWY_ALIGN float near_alone[8];
-      const bool meets = (TestBoxes<8>(node, alone, packet.limit[i], near_alone) >> child & 1u) != 0;
+      const std::uint32_t bits =
+          staying.in_range ? TestBoxes<8>(node, staying, StayingBoxRay::finite(packet.limit[i]), near_alone)
+                           : TestBoxes<8>(node, moving, packet.limit[i], near_alone);
+      const bool meets = (bits >> child & 1u) != 0;
+      const float lo[3] = {node.bounds[0][child], node.bounds[2][child], node.bounds[4][child]};
+      const float hi[3] = {node.bounds[1][child], node.bounds[3][child], node.bounds[5][child]};
+      float near_exact = 0.0f;
+      const bool holds = ExactBoxRay(rays[i]).meets(lo, hi, packet.limit[i], near_exact);
+      exact_bits |= std::uint32_t{holds} << i;
+      stays = stays || packet.stays[0] || packet.stays[1] || packet.stays[2];
       alone_bits |= std::uint32_t{meets} << i;
       lost.too_far = lost.too_far || (meets && near[child] > near_alone[child]);
     }
-    lost.lost = lost.lost || alone_bits != together || (alone_bits != 0 && (met >> child & 1u) == 0);
+    // What all tests must keep; where no ray stays on an axis the two float tests are the same operations.
+    lost.lost = lost.lost || (exact_bits & ~alone_bits) != 0 || (exact_bits & ~together) != 0;
+    lost.lost = lost.lost || (!stays && alone_bits != together) ||
+                ((alone_bits | together) != 0 && (met >> child & 1u) == 0);
   }
 #else
   (void)rays, (void)node, (void)greatest, (void)lost;
@@ -260,6 +275,16 @@ TEST_SUITE("attack: packets") {
       const Input input = attack::random_input(random, random.between(-8, 8), 6);
       const float spread = random.one_in(2) ? 0x1p-6f : 2.0f;
       Rays rays = rays_about(input, spread, random.one_in(2) ? 0.0f : 0.25f);
+      // Along planes and axes, whose rays stay at a coordinate; some at a face of the boxes.
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!random.one_in(4)) continue;
+        const float at = input.value[6 + 3 * random.below(3) + static_cast<std::size_t>(axis)];
+        const bool same = random.one_in(2);
+        for (Ray& ray : rays) {
+          ray.direction[axis] = random.one_in(2) ? 0.0f : -0.0f;
+          if (same) ray.origin[axis] = at;
+        }
+      }
       for (Ray& ray : rays) {
         if (random.one_in(4)) ray.tmin = random.unit();
         if (random.one_in(4)) ray.tmax = random.unit() + 1.0f;
