@@ -30,8 +30,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr std::uint32_t kWholePacket = (1u << kPacketRays) - 1u;
 
-// Copies the `count` rays that packet.index names, and the first of them to the places that are left; returns
-// the rays that go backward along each axis, one bit each.
+// The rays of a packet that go backward along each axis, one bit each.
 struct PacketSigns {
   std::uint32_t backward[3];
 
@@ -45,6 +44,7 @@ struct PacketSigns {
   }
 };
 
+// Copies the `count` rays that packet.index names, and the first of them to the places that are left.
 HWY_INLINE PacketSigns LoadRays(const Ray* rays, size_t count, PacketRays& packet) {
   packet.rays = rays;
   packet.count = count;
