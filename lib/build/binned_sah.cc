@@ -76,7 +76,7 @@ class Builder {
   const SahRules rules_;
   Progress& progress_;
   TriangleRefs refs_;
-  std::unique_ptr<TriangleRef[]> other_;
+  LargeArray<TriangleRef> other_;
   TriangleRef* buffer_[2];
   Float4 unit_;
   std::vector<std::uint32_t> order_;
@@ -88,7 +88,7 @@ Builder::Builder(const BinnedSahOptions& options, Progress& progress, TriangleRe
       rules_(options, "BinnedSahOptions"),
       progress_(progress),
       refs_(std::move(refs)),
-      other_(std::make_unique_for_overwrite<TriangleRef[]>(refs_.count)),
+      other_(make_large_array<TriangleRef>(refs_.count)),
       buffer_{refs_.refs.get(), other_.get()},
       unit_(splat(refs_.unit)),
       order_(refs_.count) {

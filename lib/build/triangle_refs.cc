@@ -57,7 +57,7 @@ float unit_of(const Box4& box) {
 TriangleRefs make_triangle_refs(MeshView mesh) {
   const std::size_t count = mesh.triangles.size();
   TriangleRefs result;
-  result.refs = std::make_unique_for_overwrite<TriangleRef[]>(count);
+  result.refs = make_large_array<TriangleRef>(count);
   const std::size_t pieces = piece_count(count, kPieceSize);
   std::vector<Piece> piece(pieces);
   for_pieces(count, pieces, [&](std::size_t i, std::size_t begin, std::size_t end) {

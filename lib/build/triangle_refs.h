@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 
+#include "base/aligned.h"
 #include "base/float4.h"
 #include "build/binary_tree.h"
 #include "plumb/mesh.h"
@@ -56,7 +56,7 @@ static_assert(sizeof(TriangleRef) == 32);
 /// nothing overflows, and what underflows is very small against the scene. The boxes themselves stay as
 /// they are. Zeros in them are positive, so that no box depends on the order of its triangles.
 struct TriangleRefs {
-  std::unique_ptr<TriangleRef[]> refs;
+  LargeArray<TriangleRef> refs;
   std::size_t count = 0;
   std::uint32_t unseen = 0;
   float unit = 1.0f;

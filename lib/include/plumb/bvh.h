@@ -12,10 +12,10 @@ namespace plumb {
 
 /// How much time a build takes for how fast a tree. With Arithmetic::Exact the answers are the same.
 enum class Quality {
-  /// Leaves are cut from the triangles' order along a Morton curve, and the surface area heuristic makes a
-  /// tree
-  /// over them (Pantaleoni and Luebke 2010, "HLBVH"): for scenes that change every frame. About 1.3 times as
-  /// fast a build as Balanced, and rays a few percent slower; more where triangles are long and thin.
+  /// Treelets of up to 64 triangles are cut from their order along a Morton curve, and the surface area heuristic
+  /// makes a tree over them (Pantaleoni and Luebke 2010, "HLBVH"): for scenes that change every frame. Takes
+  /// about 0.45 of the time of Balanced, and while it builds some 50 bytes a triangle beside the tree; rays are
+  /// 0.9 times as fast, less where triangles are long and thin.
   Fast,
   /// The surface area heuristic with bins (Wald 2007, "On fast Construction of SAH-based Bounding Volume
   /// Hierarchies").
