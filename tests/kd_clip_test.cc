@@ -11,8 +11,8 @@
 
 #include <gmpxx.h>
 
+#include "build/clip_triangle.h"
 #include "exact/intersect.h"
-#include "structures/clip_triangle.h"
 #include "support/effort.h"
 #include "support/random.h"
 

@@ -124,11 +124,15 @@ class TreeletBuilder {
     box = {};
     float least = std::numeric_limits<float>::infinity();
     std::size_t best = count / 2;
+    std::size_t imbalance = count;
     for (std::size_t left = 1; left < count; ++left) {
       box.add(items[left - 1].lo, items[left - 1].hi);
       const float sum = cost(box, left) + right_cost[left];
-      if (!(sum < least)) continue;
+      // Among equals the one that halves it best.
+      const std::size_t from_half = left > count / 2 ? left - count / 2 : count / 2 - left;
+      if (!(sum < least || (sum == least && from_half < imbalance))) continue;
       least = sum;
+      imbalance = from_half;
       best = left;
     }
     return run.begin + best;

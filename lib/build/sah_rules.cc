@@ -15,11 +15,10 @@ void require_option(bool holds, const char* type, const char* name, double value
 }
 
 void require_tree_size(std::size_t triangles) {
-  constexpr std::size_t kMost = 0x7fffffff;
-  if (triangles <= kMost) return;
+  if (triangles <= kMostTreeTriangles) return;
   throw Error("plumb: " + std::to_string(triangles) +
               " triangles are too many for one tree; split the mesh into parts of at most " +
-              std::to_string(kMost));
+              std::to_string(kMostTreeTriangles));
 }
 
 SahRules::SahRules(const SahOptions& options, const char* type)

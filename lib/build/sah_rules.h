@@ -53,6 +53,9 @@ class SahRules {
 /// Throws plumb::Error unless `holds`: option `name` (with its type) is `value`, but must be `range`.
 void require_option(bool holds, const char* type, const char* name, double value, const char* range);
 
+/// Most triangles, or references to them, of a tree.
+inline constexpr std::size_t kMostTreeTriangles = 0x7fffffff;
+
 /// Throws plumb::Error for more triangles than a tree's indices can tell apart: there may be twice as many
 /// nodes.
 void require_tree_size(std::size_t triangles);

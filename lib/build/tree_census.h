@@ -49,12 +49,16 @@ inline void grow(Box& box, const Box& other) {
   }
 }
 
+/// Whether every point of the first is in the second. Defined in tree_check.cc.
+bool within(const Box& inner, const Box& outer);
+
 inline bool equal(const Box& a, const Box& b) { return a.lo == b.lo && a.hi == b.hi; }
 
 /// The mesh's triangles and how often a tree has them.
 class Census {
  public:
-  explicit Census(MeshView mesh) : mesh_(mesh), seen_(mesh.triangles.size(), 0) {}
+  Census(MeshView mesh, References references)
+      : mesh_(mesh), references_(references), seen_(mesh.triangles.size(), 0) {}
 
   glm::vec3 corner(std::uint32_t triangle, int v) const {
     return mesh_.positions[mesh_.triangles[triangle][v]];
@@ -75,13 +79,20 @@ class Census {
     return true;
   }
 
-  /// Reports finite triangles that were not counted once; returns how many are not finite.
-  std::uint32_t finish(Violations& violations) const {
+  /// Notes which box the leaf has, for all of its triangles that count() has found to be there.
+  void note_box(std::uint32_t triangle, std::size_t leaf, const Box& box) {
+    if (references_ == References::Several && finite(triangle)) parts_.push_back({triangle, leaf, box});
+  }
+
+  /// Reports finite triangles that were not counted once, or that their parts do not cover; returns how many
+  /// are not finite.
+  std::uint32_t finish(Violations& violations) {
+    check_parts(violations);
     std::uint32_t unseen = 0;
     for (std::uint32_t i = 0; i < seen_.size(); ++i) {
       if (!finite(i)) {
         ++unseen;
-      } else if (seen_[i] != 1) {
+      } else if (references_ == References::Once ? seen_[i] != 1 : seen_[i] == 0) {
         violations.add("triangle ", i, seen_[i] == 0 ? " is in no leaf" : " is in more than one leaf");
       }
     }
@@ -89,8 +100,18 @@ class Census {
   }
 
  private:
+  struct Part {
+    std::uint32_t triangle;
+    std::size_t leaf;
+    Box box;
+  };
+
+  void check_parts(Violations& violations);
+
   MeshView mesh_;
+  References references_;
   std::vector<std::uint8_t> seen_;
+  std::vector<Part> parts_;
 };
 
 /// Which nodes were reached from the root, and at what depth. Parents must come first.

@@ -31,11 +31,13 @@ bool extent_holds(float extent, const glm::vec3 vertex[3]) {
 template <int W>
 class WideCheck {
  public:
-  WideCheck(const WideTree<W>& tree, MeshView mesh, std::uint32_t first_id, int max_leaf)
+  WideCheck(const WideTree<W>& tree, MeshView mesh, std::uint32_t first_id, int max_leaf,
+            References references)
       : tree_(tree),
         first_id_(first_id),
         max_leaf_(static_cast<std::uint32_t>(max_leaf)),
-        census_(mesh),
+        references_(references),
+        census_(mesh, references),
         links_(tree.nodes.size()),
         block_used_(tree.blocks.size(), false) {}
 
@@ -85,6 +87,12 @@ class WideCheck {
         children.linked[i] = links_.link(index, node.child[i], violations_);
       } else {
         children.linked[i] = check_leaf(index, i, children.leaf_box[i]);
+        if (references_ == References::Several) {
+          const Box box = child_box(node, i);
+          if (!within(box, children.leaf_box[i]))
+            violations_.add("node ", index, " leaf ", i, " has a box beyond its triangles'");
+          children.leaf_box[i] = box;
+        }
       }
     }
     if (used == 0 && index != 0) violations_.add("node ", index, " has no child");
@@ -109,7 +117,7 @@ class WideCheck {
         const std::uint32_t place = static_cast<std::uint32_t>(b) * W + lane;
         const std::string at = where + " triangle " + std::to_string(place);
         if (place < count) {
-          check_lane(tree_.blocks[first + b], lane, at, box);
+          check_lane(tree_.blocks[first + b], lane, first, child_box(tree_.nodes[index], i), at, box);
         } else if (!is_zero(tree_.blocks[first + b], lane)) {
           violations_.add(at, " lies past the count and is not zero");
         }
@@ -118,9 +126,11 @@ class WideCheck {
     return true;
   }
 
-  void check_lane(const TriangleBlock<W>& block, std::uint32_t lane, const std::string& where, Box& box) {
+  void check_lane(const TriangleBlock<W>& block, std::uint32_t lane, std::size_t leaf, const Box& leaf_box,
+                  const std::string& where, Box& box) {
     const std::uint32_t index = block.id[lane] - first_id_;
     if (!census_.count(index, box, where, violations_)) return;
+    census_.note_box(index, leaf, leaf_box);
     glm::vec3 vertex[3];
     for (int v = 0; v < 3; ++v) {
       vertex[v] = census_.corner(index, v);
@@ -166,6 +176,7 @@ class WideCheck {
   const WideTree<W>& tree_;
   std::uint32_t first_id_;
   std::uint32_t max_leaf_;
+  References references_;
   Violations violations_;
   Census census_;
   Links links_;
@@ -176,11 +187,11 @@ class WideCheck {
 
 template <int W>
 std::vector<std::string> check_tree(const WideTree<W>& tree, MeshView mesh, std::uint32_t first_id,
-                                    int max_leaf) {
-  return WideCheck<W>(tree, mesh, first_id, max_leaf).run();
+                                    int max_leaf, References references) {
+  return WideCheck<W>(tree, mesh, first_id, max_leaf, references).run();
 }
 
-template std::vector<std::string> check_tree(const WideTree<4>&, MeshView, std::uint32_t, int);
-template std::vector<std::string> check_tree(const WideTree<8>&, MeshView, std::uint32_t, int);
+template std::vector<std::string> check_tree(const WideTree<4>&, MeshView, std::uint32_t, int, References);
+template std::vector<std::string> check_tree(const WideTree<8>&, MeshView, std::uint32_t, int, References);
 
 }  // namespace plumb::detail

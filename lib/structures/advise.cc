@@ -10,10 +10,10 @@
 
 #include "base/fp_mode.h"
 #include "build/box.h"
+#include "build/clip_triangle.h"
 #include "build/mesh_check.h"
 #include "exact/intersect.h"
 #include "plumb/error.h"
-#include "structures/clip_triangle.h"
 #include "structures/grid_scene.h"
 
 namespace plumb {

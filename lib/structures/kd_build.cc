@@ -12,8 +12,8 @@
 
 #include "base/fp_mode.h"
 #include "build/box.h"
+#include "build/clip_triangle.h"
 #include "plumb/error.h"
-#include "structures/clip_triangle.h"
 #include "structures/kd_events.h"
 
 namespace plumb::detail {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "build/box.h"
+#include "build/clip_triangle.h"
 #include "exact/intersect.h"
-#include "structures/clip_triangle.h"
 
 namespace plumb::detail {
 namespace {

@@ -10,7 +10,7 @@
 #include "build/binned_sah.h"
 #include "build/clustered_sah.h"
 #include "build/mesh_check.h"
-#include "build/sweep_sah.h"
+#include "build/reinsertion.h"
 #include "build/tree_statistics.h"
 #include "plumb/error.h"
 #include "trace/binary.h"
@@ -33,13 +33,8 @@ void set_costs(int width, detail::SahOptions& sah) {
 }
 
 BinaryTree build_binary(MeshView mesh, int width, const BuildOptions& options) {
-  detail::Progress progress(options.progress, mesh.triangles.size());
-  if (options.quality == Quality::Best) {
-    detail::SweepSahOptions sweep;
-    set_costs(width, sweep);
-    return detail::build_sweep_sah(mesh, sweep, progress);
-  }
   if (options.quality == Quality::Fast) {
+    detail::Progress progress(options.progress, mesh.triangles.size());
     detail::ClusteredSahOptions clustered;
     set_costs(width, clustered);
     clustered.threads = options.threads;
@@ -48,7 +43,13 @@ BinaryTree build_binary(MeshView mesh, int width, const BuildOptions& options) {
   detail::BinnedSahOptions binned;
   set_costs(width, binned);
   binned.threads = options.threads;
-  return detail::build_binned_sah(mesh, binned, progress);
+  if (options.quality == Quality::Best) binned.duplicates = 0.5f;
+  const std::size_t improving = mesh.triangles.size() / 8;  // its steps, by the time that it takes
+  detail::Progress progress(options.progress, mesh.triangles.size() + improving);
+  BinaryTree tree = detail::build_binned_sah(mesh, binned, progress);
+  detail::reinsert(tree, {}, progress, improving);
+  progress.throw_if_cancelled();
+  return tree;
 }
 
 using QueriesFor = detail::QueryTable (*)(Simd);
@@ -124,10 +125,11 @@ std::shared_ptr<const detail::StructureData> build(MeshView mesh, const BuildOpt
   detail::with_default_fp_mode([&] {
     BinaryTree tree = build_binary(mesh, width, options);
     const std::uint32_t unseen = tree.unseen;
+    const std::size_t references = tree.order.size();
     data = make_data(std::move(tree), mesh, width, options);
     data->statistics.triangles = mesh.triangles.size();
     data->statistics.unseen_triangles = unseen;
-    data->statistics.references = mesh.triangles.size() - unseen;
+    data->statistics.references = references;
   });
   data->statistics.build_seconds = clock.seconds();
   return data;

@@ -1,4 +1,4 @@
-#include "structures/clip_triangle.h"
+#include "build/clip_triangle.h"
 
 #include <algorithm>
 #include <cmath>
