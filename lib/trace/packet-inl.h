@@ -263,12 +263,20 @@ class PacketTraversal {
       const bool sure = (covered >> i & 1u) != 0;
       if constexpr (State::kAnyHit) {
         if (ray_meets(packet_.ray(i), triangle, sure)) state_.close(i);
-        continue;
+      } else if (!knows(i, block.id[lane])) {
+        float t = 0.0f;
+        if (ray_hit(packet_.ray(i), triangle, sure, state_.limit[i], t)) {
+          state_.take(packet_, i, t, block.id[lane]);
+        }
       }
-      float t = 0.0f;
-      if (!ray_hit(packet_.ray(i), triangle, sure, state_.limit[i], t)) continue;
-      state_.take(packet_, i, t, block.id[lane]);
     }
+  }
+
+  // Of another leaf, of a tree with spatial splits.
+  bool knows(std::size_t i, std::uint32_t id) const {
+    if (state_.best_id[i] == id) return true;
+    return state_.low[i] < std::numeric_limits<float>::infinity() &&
+           tree_.blocks[state_.block[i]].id[state_.lane[i]] == id;
   }
 
   const WideTree<W>& tree_;

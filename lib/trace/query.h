@@ -75,7 +75,8 @@ class ClosestQuery : public NoCounts {
     if (!(low > tmin_) || !(high <= ray_.tmax)) return false;
     if (low > best_.t) return true;
     if (waiting_.id != kNone) {
-      if (low > high_) return true;
+      // The same one, which a tree with spatial splits offers again, has nothing to add.
+      if (low > high_ || waiting_.id == triangle.id) return true;
       if (!(high < low_)) return false;
     }
     waiting_ = triangle;
