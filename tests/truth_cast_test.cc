@@ -55,10 +55,12 @@ void check_frames(const Structure& structure, const std::string& scene) {
   }
 }
 
-void check(const std::string& scene, const TriangleMesh& mesh, int width, Simd simd) {
+void check(const std::string& scene, const TriangleMesh& mesh, int width, Simd simd,
+           Quality quality = Quality::Balanced) {
   CAPTURE(width);
   CAPTURE(simd_name(simd));
   BuildOptions options;
+  options.quality = quality;
   options.width = width;
   options.simd = simd;
   const Bvh bvh(mesh, options);
@@ -75,6 +77,7 @@ TEST_SUITE("truth: trees") {
       CAPTURE(scene);
       const TriangleMesh mesh = shared::load_scene(scene);
       for (const int width : {2, 4, 8}) check(scene, mesh, width, Simd::Auto);
+      for (const Quality quality : {Quality::Fast, Quality::Best}) check(scene, mesh, 8, Simd::Auto, quality);
     }
   }
 

@@ -34,14 +34,19 @@ class Adapted final : public Structure {
   Inner inner_;
 };
 
-Subject tree(int width, Simd simd, bool scalar) {
+Subject tree(int width, Simd simd, bool scalar, Quality quality) {
+  constexpr const char* kName[] = {"-fast-build", "", "-best-build"};
+  constexpr const char* kField[] = {".quality = Quality::Fast, ", "", ".quality = Quality::Best, "};
+  const auto index = static_cast<std::size_t>(quality);
   BuildOptions options;
+  options.quality = quality;
   options.width = width;
   options.threads = 1;
   options.simd = simd;
   const std::string target(simd_name(simd));
-  return {"bvh" + std::to_string(width) + (scalar ? "" : " " + target),
-          "Bvh(mesh, {.width = " + std::to_string(width) + ", .simd = parse_simd(\"" + target + "\")})",
+  return {"bvh" + std::to_string(width) + kName[index] + (scalar ? "" : " " + target),
+          std::string("Bvh(mesh, {") + kField[index] + ".width = " + std::to_string(width) +
+              ", .simd = parse_simd(\"" + target + "\")})",
           [options](const TriangleMesh& mesh) { return std::make_unique<Adapted<Bvh>>(Bvh(mesh, options)); },
           nullptr};
 }
@@ -90,10 +95,13 @@ Subject rasterizer(Simd simd) {
 std::vector<Subject> all_subjects() {
   std::vector<Subject> subjects;
   for (const Simd simd : simd_targets()) subjects.push_back(brute_force(simd));
-  subjects.push_back(tree(2, simd_targets().front(), true));
+  subjects.push_back(tree(2, simd_targets().front(), true, Quality::Balanced));
   subjects.push_back(spheres());
   for (const int width : {4, 8}) {
-    for (const Simd simd : simd_targets()) subjects.push_back(tree(width, simd, false));
+    for (const Simd simd : simd_targets()) subjects.push_back(tree(width, simd, false, Quality::Balanced));
+    for (const Quality quality : {Quality::Fast, Quality::Best}) {
+      subjects.push_back(tree(width, simd_targets().front(), false, quality));
+    }
   }
   for (const Simd simd : simd_targets()) {
     subjects.push_back(cells<KdTree>("kdtree", "KdTree", simd));
