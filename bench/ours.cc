@@ -27,7 +27,7 @@ struct TreeSource {
     constexpr const char* kSuffix[] = {"-fast", "-watertight", ""};
     constexpr const char* kQuality[] = {"-fast-build", "", "-best-build"};
     return "bvh" + std::to_string(options.width) + kSuffix[static_cast<int>(options.arithmetic)] +
-           kQuality[static_cast<int>(options.quality)];
+           kQuality[static_cast<int>(options.quality)] + (options.compact ? "-compact" : "");
   }
   // The binary tree is plain scalar code.
   std::string target() const { return options.width == 2 ? "" : std::string(simd_name(options.simd)); }
@@ -181,6 +181,13 @@ std::vector<Task> our_tasks(const Context& context, const std::vector<Simd>& tar
     add_tree_tasks(source, true, tasks);
   }
   source.options.quality = Quality::Balanced;
+  source.options.compact = true;
+  for (const Simd simd : targets) {
+    source.options.simd = simd;
+    add_tree_tasks(source, simd == targets.front(), tasks);
+    add_ray_tasks(source, true, tasks);
+  }
+  source.options.compact = false;
   for (const Arithmetic arithmetic : {Arithmetic::Watertight, Arithmetic::Fast}) {
     for (const Simd simd : targets) {
       source.options.arithmetic = arithmetic;

@@ -144,8 +144,8 @@ TEST_SUITE("built-in scenes") {
       CAPTURE(size);
       CHECK(contains(message_of(std::string("grid:") + size), "from 1 to 4096"));
     }
-    CHECK(contains(message_of("terrain:1"), "from 2 to 50000000"));
-    CHECK(contains(message_of("terrain:50000001"), "from 2 to 50000000"));
+    CHECK(contains(message_of("terrain:1"), "from 2 to 150000000"));
+    CHECK(contains(message_of("terrain:150000001"), "from 2 to 150000000"));
     CHECK(contains(message_of("teapot-in-stadium:1999"), "from 2000 to 10000000"));
     CHECK(message_of("grid:1") == "no error");
     CHECK(message_of("teapot-in-stadium:2000") == "no error");

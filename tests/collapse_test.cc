@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "build/binned_sah.h"
+#include "build/box.h"
 #include "build/tree_check.h"
 #include "build/tree_statistics.h"
 #include "build_scenes.h"
 #include "build_util.h"
 #include "support/fp_modes.h"
 #include "wide/collapse.h"
+#include "wide/wide_cuts.h"
 
 using namespace plumb;
 using namespace plumb::detail;
@@ -62,11 +64,52 @@ void check_scene(const build_scenes::Scene& scene, int max_leaf) {
   const Statistics many = tree_statistics(wide);
   CHECK(many.leaves == two.leaves);
   CHECK(many.depth <= std::max(two.depth, 2));
-  for (const WideNode<W>& node : wide.nodes) {
-    int inner = 0;
-    for (int i = 0; i < used_children(node); ++i) inner += node.count[i] == 0 ? 1 : 0;
-    CHECK((inner == 0 || used_children(node) == W));  // else one could have been opened
+}
+
+// The least sum of the wide nodes' areas below a binary tree's node, of all ways to choose their children.
+class AllWays {
+ public:
+  AllWays(const BinaryTree& tree, std::size_t width) : tree_(tree), width_(width) {}
+
+  double least(std::uint32_t node) const {
+    if (tree_.nodes[node].count != 0) return 0.0;
+    double best = std::numeric_limits<double>::infinity();
+    for (const std::vector<std::uint32_t>& children : cuts(node, width_)) {
+      if (children.size() < 2) continue;
+      double sum = half_area(tree_.nodes[node].box);
+      for (const std::uint32_t child : children) sum += least(child);
+      best = std::min(best, sum);
+    }
+    return best;
   }
+
+ private:
+  // The sets of up to `most` nodes that together make up all below the node.
+  std::vector<std::vector<std::uint32_t>> cuts(std::uint32_t node, std::size_t most) const {
+    std::vector<std::vector<std::uint32_t>> all = {{node}};
+    const BinaryNode& inner = tree_.nodes[node];
+    if (inner.count != 0 || most < 2) return all;
+    for (const auto& left : cuts(inner.first, most - 1)) {
+      for (const auto& right : cuts(inner.first + 1, most - left.size())) {
+        all.push_back(left);
+        all.back().insert(all.back().end(), right.begin(), right.end());
+      }
+    }
+    return all;
+  }
+
+  const BinaryTree& tree_;
+  std::size_t width_;
+};
+
+template <int W>
+double area_of_nodes(const BinaryTree& tree, const WideCuts<W>& cuts, std::uint32_t node) {
+  if (tree.nodes[node].count != 0) return 0.0;
+  double sum = half_area(tree.nodes[node].box);
+  const auto children = cuts.children(node);
+  for (int i = 0; i < children.count; ++i)
+    sum += area_of_nodes(tree, cuts, children.node[static_cast<std::size_t>(i)]);
+  return sum;
 }
 
 }  // namespace
@@ -101,33 +144,26 @@ TEST_SUITE("collapse") {
     CHECK(joined(check_tree(wide, mesh, 7, 5)) == "");
   }
 
-  TEST_CASE("the child with the largest area is opened first") {
-    // Five leaves below the root: ((a b) (c (d e))). Four children hold three openings: the root's, the
-    // larger of its two inner children's, and then, of (d e) and the smaller one, the larger.
-    const auto wide_counts = [](float left, float right, float right_inner) {
-      TriangleMesh mesh = build_scenes::repeated(5 * 2);
-      BinaryTree tree;
-      const auto box = [](float size) { return Box{{0, 0, 0}, {size, size, size}}; };
-      tree.nodes = {{box(100), 1, 0},         {box(left), 3, 0}, {box(right), 5, 0},
-                    {box(1), 0, 1},           {box(1), 1, 1},    {box(1), 2, 1},
-                    {box(right_inner), 7, 0}, {box(1), 3, 1},    {box(1), 4, 1}};
-      tree.order = {0, 1, 2, 3, 4};
-      const WideTree<4> wide = collapse<4>(tree, mesh, 0, 1);
-      REQUIRE(used_children(wide.nodes[0]) == 4);
-      float closed = 0.0f;  // the size of the child that stayed a node
-      int inner = 0;
-      for (int i = 0; i < 4; ++i) {
-        if (wide.nodes[0].count[i] != 0) continue;
-        closed = wide.nodes[0].bounds[1][i];
-        ++inner;
-      }
-      CHECK(inner == 1);
-      CHECK(wide.nodes.size() == 2);
-      return closed;
-    };
-    CHECK(wide_counts(10, 20, 15) == 10);
-    CHECK(wide_counts(10, 20, 5) == 5);
-    CHECK(wide_counts(20, 10, 5) == 5);
+  TEST_CASE("no other choice of children makes the wide nodes' areas sum to less") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      CAPTURE(seed);
+      const TriangleMesh mesh = build_scenes::soup(4 + static_cast<int>(seed) / 4, 1.0f, 0.5f, seed);
+      const BinaryTree tree = build(mesh, 1, 1);
+      const double four = area_of_nodes(tree, WideCuts<4>(tree), 0);
+      CHECK(four == doctest::Approx(AllWays(tree, 4).least(0)).epsilon(1e-5));
+      if (mesh.triangles.size() > 10) continue;  // there are very many ways
+      const double eight = area_of_nodes(tree, WideCuts<8>(tree), 0);
+      CHECK(eight == doctest::Approx(AllWays(tree, 8).least(0)).epsilon(1e-5));
+      CHECK(eight <= four);
+    }
+  }
+
+  TEST_CASE("where areas say nothing, nodes are full") {
+    const TriangleMesh mesh = build_scenes::repeated(64);
+    BinaryTree tree = build(mesh, 1, 1);
+    for (BinaryNode& node : tree.nodes) node.box = {{1, 2, 3}, {1, 2, 3}};
+    CHECK(collapse<8>(tree, mesh, 0, 1).nodes.size() <= 13);
+    CHECK(collapse<4>(tree, mesh, 0, 1).nodes.size() <= 32);
   }
 
   TEST_CASE("extents that overflow are infinite, and none is below 2^-30") {

@@ -125,7 +125,9 @@ TEST_CASE("bundles about hard rays, neighbours and strangers, see what each of t
       }
       const Answers expected = one_by_one(Bvh(hard_case.mesh, {.width = 2}), rays);
       for (const int width : {4, 8}) {
-        const Bvh bvh(hard_case.mesh, {.quality = static_cast<Quality>(seed % 3), .width = width});
+        const Bvh bvh(hard_case.mesh, {.quality = static_cast<Quality>(seed % 3),
+                                       .width = width,
+                                       .compact = width == 8 && seed % 2 == 1});
         for (const Simd simd : simd_targets()) {
           const std::string who = std::string(kind.name) + ", seed " + std::to_string(seed) + ", bvh" +
                                   std::to_string(width) + " " + std::string(simd_name(simd));

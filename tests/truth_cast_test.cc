@@ -56,11 +56,12 @@ void check_frames(const Structure& structure, const std::string& scene) {
 }
 
 void check(const std::string& scene, const TriangleMesh& mesh, int width, Simd simd,
-           Quality quality = Quality::Balanced) {
+           Quality quality = Quality::Balanced, bool compact = false) {
   CAPTURE(width);
   CAPTURE(simd_name(simd));
   BuildOptions options;
   options.quality = quality;
+  options.compact = compact;
   options.width = width;
   options.simd = simd;
   const Bvh bvh(mesh, options);
@@ -89,6 +90,7 @@ TEST_SUITE("truth: trees") {
       CAPTURE(scene);
       for (const Simd simd : simd_targets()) {
         for (const int width : {4, 8}) check(scene, mesh, width, simd);
+        check(scene, mesh, 8, simd, Quality::Balanced, true);
       }
     }
   }

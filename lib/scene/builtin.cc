@@ -22,7 +22,7 @@ struct Entry {
 constexpr Entry kEntries[] = {
     {"teapot-in-stadium", "the Utah teapot on a plinth at the centre of a stadium a thousand times its size",
      detail::kTeapotInStadiumSize, 2'000, 10'000'000, "triangles, about", detail::teapot_in_stadium},
-    {"terrain", "fractal mountains, a height field seen at a grazing angle", 500'000, 2, 50'000'000,
+    {"terrain", "fractal mountains, a height field seen at a grazing angle", 500'000, 2, 150'000'000,
      "triangles, about", detail::terrain},
     {"grid",
      "a relief of blocks on integer coordinates; in frames of 720, 1080 or 512 lines, or half as many, "
@@ -31,8 +31,8 @@ constexpr Entry kEntries[] = {
     {"grass", "a meadow of thin bent blades, seen from just above them", 500'000, 7, 50'000'000,
      "triangles, about", detail::grass},
     {"soup", "triangles of no order strewn through a cube, smaller the more there are", 200'000, 1,
-     50'000'000, "triangles", detail::soup},
-    {"spheres", "a cloud of spheres of very different sizes, each of them closed", 500'000, 8, 50'000'000,
+     150'000'000, "triangles", detail::soup},
+    {"spheres", "a cloud of spheres of very different sizes, each of them closed", 500'000, 8, 150'000'000,
      "triangles, about", detail::spheres},
     {"quads", "layers that each fill the whole view, the farthest first", 256, 1, 1'000'000, "layers",
      detail::quads},

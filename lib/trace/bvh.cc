@@ -18,6 +18,7 @@
 #include "trace/structure_data.h"
 #include "trace/wide_kernels.h"
 #include "wide/collapse.h"
+#include "wide/compact_tree.h"
 #include "wide/wide_tree.h"
 
 namespace plumb {
@@ -75,6 +76,19 @@ std::shared_ptr<detail::StructureData> make_wide(const BinaryTree& tree, MeshVie
   return data;
 }
 
+std::shared_ptr<detail::StructureData> make_compact(const BinaryTree& tree, MeshView mesh,
+                                                    const BuildOptions& options) {
+  detail::WideTree<8> wide = detail::collapse<8>(tree, mesh, options.first_id, options.threads);
+  Statistics statistics = detail::tree_statistics(wide);
+  detail::CompactTree<8> compact = detail::compact<8>(std::move(wide), options.threads);
+  statistics.bytes = compact.nodes.capacity() * sizeof(compact.nodes[0]) +
+                     compact.units.capacity() * sizeof(compact.units[0]);
+  auto data = detail::make_structure_data(std::move(compact), detail::wide8_compact_queries,
+                                          detail::resolve_simd(options.simd));
+  data->statistics = statistics;
+  return data;
+}
+
 std::shared_ptr<detail::StructureData> make_binary(BinaryTree tree, MeshView mesh,
                                                    const BuildOptions& options) {
   Statistics statistics = detail::tree_statistics(tree);
@@ -88,6 +102,7 @@ std::shared_ptr<detail::StructureData> make_binary(BinaryTree tree, MeshView mes
 std::shared_ptr<detail::StructureData> make_data(BinaryTree tree, MeshView mesh, int width,
                                                  const BuildOptions& options) {
   if (width == 2) return make_binary(std::move(tree), mesh, options);
+  if (options.compact) return make_compact(tree, mesh, options);
   if (width == 4) return make_wide<4>(tree, mesh, options, detail::wide4_queries);
   return make_wide<8>(tree, mesh, options, wide8_queries_for(options.arithmetic));
 }
@@ -112,6 +127,10 @@ int checked_width(const BuildOptions& options) {
   if (width != 8 && options.arithmetic != Arithmetic::Exact) {
     throw Error("plumb: BuildOptions::width is " + std::to_string(width) +
                 "; for Arithmetic::Fast and Arithmetic::Watertight it must be 0 or 8");
+  }
+  if (options.compact && (width != 8 || options.arithmetic != Arithmetic::Exact)) {
+    throw Error(
+        "plumb: BuildOptions::compact is for width 0 or 8 and Arithmetic::Exact; leave one of them out");
   }
   detail::resolve_simd(options.simd);
   return width;

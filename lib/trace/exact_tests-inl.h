@@ -30,14 +30,6 @@ namespace plumb::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <int W>
-HWY_INLINE Triangle TriangleOf(const TriangleBlock<W>& block, size_t lane) {
-  const auto corner = [&](int v) {
-    return glm::vec3(block.vertex[v][0][lane], block.vertex[v][1][lane], block.vertex[v][2][lane]);
-  };
-  return {corner(0), corner(1), corner(2)};
-}
-
-template <int W>
 class ExactTests {
  public:
   // `greatest` is the greatest |coordinate| of the scene's finite triangles.
@@ -128,11 +120,11 @@ class ExactTests {
   FilterRay filter_;
 };
 
-template <int W>
+template <class Tree>
 struct ExactTraversal {
   template <class Query>
-  static void run(const WideTree<W>& tree, const Ray& ray, Query& query) {
-    ExactTests<W> tests(tree.greatest, ray, query.limit());
+  static void run(const Tree& tree, const Ray& ray, Query& query) {
+    ExactTests<Tree::kWidth> tests(tree.greatest, ray, query.limit());
     Traverse(tree, tests, query);
   }
 };

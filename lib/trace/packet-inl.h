@@ -40,14 +40,14 @@ namespace plumb::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // One ray of a packet as a query, for a subtree that few rays reach.
-template <int W>
+template <class Tree>
 class ClosestOfPacket : public NoCounts {
  public:
   static constexpr bool kBoundsDepth = true;
   static constexpr bool kOrdered = true;
   static constexpr bool kAnyHit = false;
 
-  ClosestOfPacket(const WideTree<W>& tree, const PacketRays& packet, ClosestPacket& state, std::size_t ray)
+  ClosestOfPacket(const Tree& tree, const PacketRays& packet, ClosestPacket& state, std::size_t ray)
       : tree_(tree), packet_(packet), state_(state), ray_(ray) {}
   float limit() const { return state_.limit[ray_]; }
   bool take(float t, std::uint32_t id) {
@@ -59,28 +59,41 @@ class ClosestOfPacket : public NoCounts {
     if (!(low > packet_.tmin[ray_]) || !(high <= packet_.tmax[ray_])) return false;
     if (low > state_.best_t[ray_] || low > state_.high[ray_]) return true;
     if (!(high < state_.low[ray_])) return false;
-    const auto offset = static_cast<std::size_t>(reinterpret_cast<const char*>(triangle.corner) -
-                                                 reinterpret_cast<const char*>(tree_.blocks.data()));
-    state_.block[ray_] = static_cast<std::uint32_t>(offset / sizeof(TriangleBlock<W>));
-    state_.lane[ray_] = static_cast<std::uint32_t>(offset % sizeof(TriangleBlock<W>) / sizeof(float));
+    // Blocks are aligned to their rows.
+    state_.lane[ray_] = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(triangle.corner) /
+                                                   sizeof(float) % Tree::kWidth);
+    state_.block[ray_] = place_of(triangle.corner);
     state_.low[ray_] = low;
     state_.high[ray_] = high;
     state_.limit[ray_] = std::min(state_.limit[ray_], depth_limit(high));
     return true;
   }
   static constexpr bool done() { return false; }
+  void at_block(std::uint32_t place) { place_ = place; }
 
  private:
-  const WideTree<W>& tree_;
+  // The block's that a lane lies in.
+  std::uint32_t place_of(const float* corner) const {
+    if constexpr (std::is_same_v<Tree, WideTree<Tree::kWidth>>) {
+      const auto offset = static_cast<std::size_t>(reinterpret_cast<const char*>(corner) -
+                                                   reinterpret_cast<const char*>(tree_.blocks.data()));
+      return static_cast<std::uint32_t>(offset / sizeof tree_.blocks[0]);
+    } else {
+      return place_;
+    }
+  }
+
+  const Tree& tree_;
   const PacketRays& packet_;
   ClosestPacket& state_;
   std::size_t ray_;
+  std::uint32_t place_ = 0;  // of what is unpacked
 };
 
-template <int W>
+template <class Tree>
 class AnyOfPacket : public AnyQuery {
  public:
-  AnyOfPacket(const WideTree<W>&, const PacketRays& packet, AnyPacket& state, std::size_t ray)
+  AnyOfPacket(const Tree&, const PacketRays& packet, AnyPacket& state, std::size_t ray)
       : AnyQuery(packet.ray(ray)), state_(state), ray_(ray) {}
   ~AnyOfPacket() {
     if (result()) state_.close(ray_);
@@ -93,8 +106,8 @@ class AnyOfPacket : public AnyQuery {
   std::size_t ray_;
 };
 
-template <int W, class State>
-using SingleOf = std::conditional_t<State::kOrdered, ClosestOfPacket<W>, AnyOfPacket<W>>;
+template <class Tree, class State>
+using SingleOf = std::conditional_t<State::kOrdered, ClosestOfPacket<Tree>, AnyOfPacket<Tree>>;
 
 // Offers a triangle to rays [i, i + Lanes(d)) that meet it for certain (`certain`) with t between `low` and
 // `high`, as ClosestQuery::take_bounds does. Returns those for which the bounds say enough.
@@ -134,12 +147,13 @@ HWY_INLINE M TakeBounds(D d, const PacketRays& packet, AnyPacket& state, size_t 
   return hn::Or(hit, misses);
 }
 
-template <int W, class State>
+template <class Tree, class State>
 class PacketTraversal {
+  static constexpr int W = Tree::kWidth;
+
  public:
   // Up to `few` rays take a subtree one by one.
-  PacketTraversal(const WideTree<W>& tree, const PacketRays& packet, const PacketSlabs& slabs, State& state,
-                  int few)
+  PacketTraversal(const Tree& tree, const PacketRays& packet, const PacketSlabs& slabs, State& state, int few)
       : tree_(tree), packet_(packet), slabs_(slabs), state_(state), few_(few), limit_(greatest_limit()) {}
 
   HWY_NOINLINE void run() {
@@ -194,7 +208,7 @@ class PacketTraversal {
   void one_by_one(std::uint32_t child, std::uint32_t count, std::uint32_t rays) {
     for (; rays != 0; rays &= rays - 1) {
       const auto i = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rays));
-      SingleOf<W, State> query(tree_, packet_, state_, i);
+      SingleOf<Tree, State> query(tree_, packet_, state_, i);
       ExactTests<W>& tests = tests_of(i);
       tests.set_limit(query.limit());
       Traverse(tree_, tests, query, {0.0f, child, count});
@@ -212,8 +226,9 @@ class PacketTraversal {
   }
 
   void leaf(std::uint32_t child, std::uint32_t count, std::uint32_t rays) {
-    for (;; ++child) {
-      const TriangleBlock<W>& block = tree_.blocks[child];
+    for (;; child = NextBlock(tree_, child)) {
+      TriangleBlock<W> room;
+      const TriangleBlock<W>& block = BlockOf(tree_, child, room);
       LeafTerms<W> terms;
       std::uint32_t met = MakeLeafTerms(packet_, block, terms);
       if (count < static_cast<std::uint32_t>(W)) met &= (1u << count) - 1u;
@@ -276,10 +291,10 @@ class PacketTraversal {
   bool knows(std::size_t i, std::uint32_t id) const {
     if (state_.best_id[i] == id) return true;
     return state_.low[i] < std::numeric_limits<float>::infinity() &&
-           tree_.blocks[state_.block[i]].id[state_.lane[i]] == id;
+           IdAt(tree_, state_.block[i], state_.lane[i]) == id;
   }
 
-  const WideTree<W>& tree_;
+  const Tree& tree_;
   const PacketRays& packet_;
   const PacketSlabs& slabs_;
   State& state_;
@@ -291,8 +306,8 @@ class PacketTraversal {
 };
 
 // Computes the depths that wait, all at once where double arithmetic is enough, and takes those that count.
-template <int W>
-HWY_INLINE void Settle(const WideTree<W>& tree, const PacketRays& packet, ClosestPacket& state) {
+template <class Tree>
+HWY_INLINE void Settle(const Tree& tree, const PacketRays& packet, ClosestPacket& state) {
   std::uint32_t waiting = 0;
   for (size_t i = 0; i < kPacketRays; ++i) {
     waiting |= std::uint32_t{state.low[i] < std::numeric_limits<float>::infinity()} << i;
@@ -303,10 +318,14 @@ HWY_INLINE void Settle(const WideTree<W>& tree, const PacketRays& packet, Closes
   for (size_t i = 0; i < kPacketRays; ++i) {
     const bool waits = (waiting >> i & 1u) != 0;
     // A triangle of any block where none waits: its depth is not taken.
-    const TriangleBlock<W>& block = tree.blocks[waits ? state.block[i] : 0];
-    const std::uint32_t lane = waits ? state.lane[i] : 0;
-    for (size_t k = 0; k < 9; ++k) corner[k][i] = block.vertex[k / 3][k % 3][lane];
-    id[i] = block.id[lane];
+    const std::uint32_t place = waits ? state.block[i] : 0, lane = waits ? state.lane[i] : 0;
+    const Triangle triangle = TriangleAt(tree, place, lane);
+    for (int axis = 0; axis < 3; ++axis) {
+      corner[axis][i] = triangle.v0[axis];
+      corner[3 + axis][i] = triangle.v1[axis];
+      corner[6 + axis][i] = triangle.v2[axis];
+    }
+    id[i] = IdAt(tree, place, lane);
   }
   HWY_ALIGN float t[kPacketRays];
   std::uint32_t certain_bits = 0;
@@ -328,7 +347,7 @@ HWY_INLINE void Settle(const WideTree<W>& tree, const PacketRays& packet, Closes
   for (std::uint32_t open = waiting & ~certain_bits; open != 0; open &= open - 1) {
     const auto i = static_cast<size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(open));
     const Ray& ray = packet.ray(i);
-    t[i] = line_depth(ray.origin, ray.direction, TriangleOf(tree.blocks[state.block[i]], state.lane[i]));
+    t[i] = line_depth(ray.origin, ray.direction, TriangleAt(tree, state.block[i], state.lane[i]));
   }
   // depth_counts() and hit_before().
   const hn::CappedTag<float, kPacketRays> d;

@@ -24,6 +24,7 @@ inline bool ray_can_hit(const Ray& ray) {
 struct NoCounts {
   void count_volumes(std::size_t) {}
   void count_triangles(std::size_t) {}
+  void at_block(std::uint32_t) {}
   void keep_waiting() {}
 };
 

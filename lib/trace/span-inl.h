@@ -29,10 +29,10 @@ namespace plumb::detail::HWY_NAMESPACE {
 // Rays that follow each other in a span and share an octant of directions are taken to be neighbours, as a
 // camera's are, and make a packet as they come. The others of a stretch of the span wait for rays of their
 // octant; these packets fall apart sooner.
-template <int W>
+template <class Tree>
 class SpanTracer {
  public:
-  SpanTracer(const WideTree<W>& tree, const Ray* rays, std::size_t count)
+  SpanTracer(const Tree& tree, const Ray* rays, std::size_t count)
       : tree_(tree), rays_(rays), count_(count) {}
 
   void closest(Hit* hits) const {
@@ -43,7 +43,7 @@ class SpanTracer {
           }
         },
         [&](std::size_t i) {
-          closest_one_by_one<WideTree<W>, ExactTraversal<W>>(&tree_, rays_ + i, hits + i, 1);
+          closest_one_by_one<Tree, ExactTraversal<Tree>>(&tree_, rays_ + i, hits + i, 1);
         });
   }
 
@@ -53,9 +53,7 @@ class SpanTracer {
           for (size_t i = 0; i < packet.count; ++i)
             hits[begin + packet.index[i]] = (state.hit >> i & 1u) != 0;
         },
-        [&](std::size_t i) {
-          any_one_by_one<WideTree<W>, ExactTraversal<W>>(&tree_, rays_ + i, hits + i, 1);
-        });
+        [&](std::size_t i) { any_one_by_one<Tree, ExactTraversal<Tree>>(&tree_, rays_ + i, hits + i, 1); });
   }
 
  private:
@@ -80,7 +78,7 @@ class SpanTracer {
           return;
         }
         State state(packet);
-        PacketTraversal<W, State> traversal(tree_, packet, slabs, state, few);
+        PacketTraversal<Tree, State> traversal(tree_, packet, slabs, state, few);
         traversal.run();
         if constexpr (State::kOrdered) Settle(tree_, packet, state);
         answer(begin, packet, state);
@@ -121,7 +119,7 @@ class SpanTracer {
     return apart <= kMostApart * size;
   }
 
-  const WideTree<W>& tree_;
+  const Tree& tree_;
   const Ray* rays_;
   std::size_t count_;
 };
@@ -129,17 +127,17 @@ class SpanTracer {
 #endif
 
 // make_query_table() whose span calls trace packets.
-template <int W>
+template <class Tree>
 QueryTable MakeSpanQueryTable() {
-  QueryTable table = make_query_table<WideTree<W>, ExactTraversal<W>>();
+  QueryTable table = make_query_table<Tree, ExactTraversal<Tree>>();
 #if HWY_TARGET != HWY_SCALAR
   table.closest = [](const void* structure, const Ray* rays, Hit* hits, std::size_t count) {
-    if (count == 1) return closest_one_by_one<WideTree<W>, ExactTraversal<W>>(structure, rays, hits, 1);
-    SpanTracer<W>(*static_cast<const WideTree<W>*>(structure), rays, count).closest(hits);
+    if (count == 1) return closest_one_by_one<Tree, ExactTraversal<Tree>>(structure, rays, hits, 1);
+    SpanTracer<Tree>(*static_cast<const Tree*>(structure), rays, count).closest(hits);
   };
   table.any = [](const void* structure, const Ray* rays, bool* hits, std::size_t count) {
-    if (count == 1) return any_one_by_one<WideTree<W>, ExactTraversal<W>>(structure, rays, hits, 1);
-    SpanTracer<W>(*static_cast<const WideTree<W>*>(structure), rays, count).any(hits);
+    if (count == 1) return any_one_by_one<Tree, ExactTraversal<Tree>>(structure, rays, hits, 1);
+    SpanTracer<Tree>(*static_cast<const Tree*>(structure), rays, count).any(hits);
   };
 #endif
   return table;

@@ -1,4 +1,4 @@
-// One ray through a wide tree: the loop, for every width, arithmetic, query and Highway target. A node's
+// One ray through a wide tree: the loop, for every tree, arithmetic, query and Highway target. A node's
 // boxes are tested at once, and the children met are taken near to far.
 
 #if defined(PLUMB_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -15,7 +15,7 @@
 #include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "trace/query.h"
-#include "wide/wide_tree.h"
+#include "trace/tree_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
@@ -33,16 +33,17 @@ struct WideTraversalEntry {
 //                                  query is done
 // `current` is where the ray starts, the root unless told. Vectors in the tests hold min(W, lanes of the
 // target) lanes, so W = 8 takes one step on AVX2 and two on SSE4 or NEON.
-template <int W, class Tests, class Query>
-HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query,
+template <class Tree, class Tests, class Query>
+HWY_INLINE void Traverse(const Tree& tree, Tests& tests, Query& query,
                          WideTraversalEntry current = {0.0f, 0, 0}) {
+  constexpr int W = Tree::kWidth;
   // Every node visited leaves at most W - 1 siblings on the stack.
   WideTraversalEntry stack[(W - 1) * kMaxTreeDepth + 1];
   WideTraversalEntry* top = stack;
   // What waits on the stack is fetched meanwhile.
   const auto prefetch = [&](const WideTraversalEntry& entry) HWY_ATTR {
     if (entry.count != 0) {
-      hwy::Prefetch(&tree.blocks[entry.child]);
+      hwy::Prefetch(AddressOfBlock(tree, entry.child));
     } else {
       hwy::Prefetch(&tree.nodes[entry.child]);
     }
@@ -50,7 +51,7 @@ HWY_INLINE void Traverse(const WideTree<W>& tree, Tests& tests, Query& query,
   for (;;) {
     if (current.count != 0) {
       query.count_triangles(current.count);
-      if (tests.leaf(&tree.blocks[current.child], current.count, query)) return;
+      if (TestLeaf(tree, current.child, current.count, tests, query)) return;
     } else {
       const WideNode<W>& node = tree.nodes[current.child];
       query.count_volumes(W);

@@ -111,7 +111,7 @@ struct WatertightTraversal {
     if (HWY_LIKELY(tests.in_range())) {
       Traverse(tree, tests, query);
     } else {
-      ExactTraversal<W>::run(tree, ray, query);
+      ExactTraversal<WideTree<W>>::run(tree, ray, query);
     }
   }
 };

@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-QueryTable Wide4Queries() { return MakeSpanQueryTable<4>(); }
+QueryTable Wide4Queries() { return MakeSpanQueryTable<WideTree<4>>(); }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-QueryTable Wide8Queries() { return MakeSpanQueryTable<8>(); }
+QueryTable Wide8Queries() { return MakeSpanQueryTable<WideTree<8>>(); }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

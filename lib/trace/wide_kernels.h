@@ -9,7 +9,10 @@ namespace plumb::detail {
 QueryTable wide4_queries(Simd simd);
 QueryTable wide8_queries(Simd simd);
 
-/// The same in the lesser arithmetics, which one width is enough for.
+/// Over a CompactTree<8>.
+QueryTable wide8_compact_queries(Simd simd);
+
+/// The same as wide8_queries() in the lesser arithmetics, which one width is enough for.
 QueryTable wide8_fast_queries(Simd simd);
 QueryTable wide8_watertight_queries(Simd simd);
 

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "build/box.h"
 #include "build/chunks.h"
+#include "wide/wide_cuts.h"
 
 namespace plumb::detail {
 namespace {
@@ -32,7 +33,7 @@ class Plan {
     if (binary.nodes.empty()) {
       nodes.emplace_back();
     } else {
-      add_node(0);
+      add_node(WideCuts<W>(binary), 0);
     }
   }
 
@@ -40,39 +41,12 @@ class Plan {
   std::uint32_t blocks = 0;
 
  private:
-  struct Candidate {
-    std::uint32_t node;
-    double area;  // negative for a leaf, which cannot be opened
-  };
-
-  Candidate candidate(std::uint32_t index) const {
-    const BinaryNode& node = binary_.nodes[index];
-    return {index, node.count != 0 ? -1.0 : half_area(node.box)};
-  }
-
-  // Among equal areas the one that came in first is opened, so that flat scenes are opened level by level.
-  PlannedNode<W> choose(std::uint32_t root) const {
-    std::array<Candidate, W> list;
-    auto end = list.begin();
-    *end++ = candidate(root);
-    while (end != list.end()) {
-      const auto widest = std::max_element(
-          list.begin(), end, [](const Candidate& a, const Candidate& b) { return a.area < b.area; });
-      if (widest->area < 0.0) break;
-      const std::uint32_t first = binary_.nodes[widest->node].first;
-      end = std::move(widest + 1, end, widest);
-      *end++ = candidate(first);
-      *end++ = candidate(first + 1);
-    }
-    PlannedNode<W> node;
-    node.count = static_cast<int>(end - list.begin());
-    std::transform(list.begin(), end, node.binary.begin(), [](const Candidate& c) { return c.node; });
-    return node;
-  }
-
-  std::uint32_t add_node(std::uint32_t root) {
+  std::uint32_t add_node(const WideCuts<W>& cuts, std::uint32_t root) {
     const auto self = static_cast<std::uint32_t>(nodes.size());
-    PlannedNode<W> node = choose(root);
+    const auto cut = cuts.children(root);
+    PlannedNode<W> node;
+    node.count = cut.count;
+    node.binary = cut.node;
     nodes.emplace_back();
     const auto count = static_cast<std::size_t>(node.count);
     // Leaves first: their blocks come together, near those of their parent's other leaves.
@@ -83,7 +57,7 @@ class Plan {
       blocks += (triangles + W - 1) / W;
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (binary_.nodes[node.binary[i]].count == 0) node.child[i] = add_node(node.binary[i]);
+      if (binary_.nodes[node.binary[i]].count == 0) node.child[i] = add_node(cuts, node.binary[i]);
     }
     nodes[self] = node;
     return self;

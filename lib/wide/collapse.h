@@ -8,11 +8,9 @@
 
 namespace plumb::detail {
 
-/// Makes a W-wide tree of a binary one over the same mesh: each wide node takes in the binary node with
-/// the largest surface, over and over, until it has W children or only leaves (Wald, Benthin and Boulos
-/// 2008, "Getting Rid of Packets", section 3; Ernst and Greiner 2008, "Multi Bounding Volume
-/// Hierarchies"). The greatest area is opened first because the children of such a node are the most
-/// likely to be tested anyway. A path has at most as many nodes as in the binary tree.
+/// Makes a W-wide tree of a binary one over the same mesh (Wald, Benthin and Boulos 2008, "Getting Rid of
+/// Packets", section 3; Ernst and Greiner 2008, "Multi Bounding Volume Hierarchies"): each wide node takes in
+/// the binary nodes that wide_cuts.h says. A path has at most as many nodes as in the binary tree.
 ///
 /// Nodes and blocks are stored depth-first. Ids are `first_id` plus the triangle's index. The result
 /// depends on the tree and the mesh alone. Defined for W = 4 and 8.

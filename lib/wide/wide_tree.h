@@ -30,6 +30,8 @@ static_assert(sizeof(WideNode<4>) == 128 && sizeof(WideNode<8>) == 256);
 /// A tree of W-wide nodes; nodes[0] is the root. An empty scene has one node without children.
 template <int W>
 struct WideTree {
+  static constexpr int kWidth = W;
+
   UnsetVector<WideNode<W>> nodes;
   UnsetVector<TriangleBlock<W>> blocks;
   Box box{};              ///< of all finite triangles; lo > hi when there is none

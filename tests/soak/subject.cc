@@ -34,19 +34,21 @@ class Adapted final : public Structure {
   Inner inner_;
 };
 
-Subject tree(int width, Simd simd, bool scalar, Quality quality) {
+Subject tree(int width, Simd simd, bool scalar, Quality quality, bool compact = false) {
   constexpr const char* kName[] = {"-fast-build", "", "-best-build"};
   constexpr const char* kField[] = {".quality = Quality::Fast, ", "", ".quality = Quality::Best, "};
   const auto index = static_cast<std::size_t>(quality);
   BuildOptions options;
   options.quality = quality;
+  options.compact = compact;
   options.width = width;
   options.threads = 1;
   options.simd = simd;
   const std::string target(simd_name(simd));
-  return {"bvh" + std::to_string(width) + kName[index] + (scalar ? "" : " " + target),
+  return {"bvh" + std::to_string(width) + kName[index] + (compact ? "-compact" : "") +
+              (scalar ? "" : " " + target),
           std::string("Bvh(mesh, {") + kField[index] + ".width = " + std::to_string(width) +
-              ", .simd = parse_simd(\"" + target + "\")})",
+              ", .simd = parse_simd(\"" + target + "\")" + (compact ? ", .compact = true})" : "})"),
           [options](const TriangleMesh& mesh) { return std::make_unique<Adapted<Bvh>>(Bvh(mesh, options)); },
           nullptr};
 }
@@ -103,6 +105,7 @@ std::vector<Subject> all_subjects() {
       subjects.push_back(tree(width, simd_targets().front(), false, quality));
     }
   }
+  for (const Simd simd : simd_targets()) subjects.push_back(tree(8, simd, false, Quality::Balanced, true));
   for (const Simd simd : simd_targets()) {
     subjects.push_back(cells<KdTree>("kdtree", "KdTree", simd));
     subjects.push_back(cells<UniformGrid>("grid", "UniformGrid", simd));

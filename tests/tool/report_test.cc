@@ -112,7 +112,7 @@ TEST_CASE("--out writes Markdown of the cases asked for") {
   CHECK(has(document, "3 scenes, 24 rays of which 100 % see something."));
   CHECK(has(document,
             "| rays: brute, bvh2, spheres, bvh4, bvh4-fast-build, bvh4-best-build, bvh8, bvh8-fast-build, "
-            "bvh8-best-build, kdtree, grid, octree | 24 | 0 | 0 | 0 | 0 | 0 | 0 | 0 |"));
+            "bvh8-best-build, bvh8-compact, kdtree, grid, octree | 24 | 0 | 0 | 0 | 0 | 0 | 0 | 0 |"));
   CHECK(!has(document, "### shared-edge"));
 }
 
