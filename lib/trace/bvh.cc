@@ -73,6 +73,7 @@ std::shared_ptr<detail::StructureData> make_wide(const BinaryTree& tree, MeshVie
   const Statistics statistics = detail::tree_statistics(wide);
   auto data = detail::make_structure_data(std::move(wide), queries_for, detail::resolve_simd(options.simd));
   data->statistics = statistics;
+  data->refit = {W, options.first_id};
   return data;
 }
 

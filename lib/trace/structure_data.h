@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include "plumb/simd.h"
@@ -9,6 +10,13 @@
 
 namespace plumb::detail {
 
+/// What following moved vertices takes; `width` is 0 where that is not possible.
+struct RefitData {
+  int width = 0;
+  std::uint32_t first_id = 0;
+  double built_looseness = -1.0;  ///< of the tree as it was built; negative while no one has asked
+};
+
 /// What a Structure holds. Copies of a Structure share it; the same structure on several instruction sets
 /// shares `structure`.
 struct StructureData {
@@ -16,6 +24,7 @@ struct StructureData {
   QueryTable (*queries_for)(Simd);        ///< for a resolved target; scalar code ignores it
   QueryTable queries;
   Statistics statistics;
+  RefitData refit;
 };
 
 /// `simd` must have been resolved.

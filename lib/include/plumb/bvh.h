@@ -76,6 +76,16 @@ struct BuildOptions {
   bool compact = false;
 };
 
+/// What Bvh::refit() made of the tree.
+struct RefitReport {
+  /// How many more boxes a ray is expected to meet for each triangle that it comes by than in the tree as it
+  /// was built (by the surface area heuristic, but against the triangles' own boxes instead of the scene's,
+  /// so that moving or scaling all of it changes nothing): 1 is as good, 2 about half as fast.
+  double looseness = 1.0;
+  /// Whether it has become so loose, 1.5, that a new build, of Quality::Fast if need be, is soon paid back.
+  bool rebuild_advised = false;
+};
+
 /// A bounding volume hierarchy over a copy of the mesh.
 ///
 /// Built as Quality says, then collapsed to wide nodes (Wald, Benthin and Boulos 2008, "Getting Rid of
@@ -89,6 +99,20 @@ class Bvh : public Structure {
   /// Throws plumb::Error for a vertex index out of range, ids that reach kNone, 2^31 triangles and
   /// more, and options out of range, and Cancelled when the options' progress says so.
   explicit Bvh(MeshView mesh, const BuildOptions& options = {});
+
+  /// Follows vertices that moved: takes all coordinates anew, and makes the boxes fit without changing
+  /// which triangles lie in which (Wald, Boulos and Shirley 2007, "Ray Tracing Deformable Scenes Using
+  /// Dynamic Bounding Volume Hierarchies"). The answers are those of a new Bvh over `mesh`, bit for bit; only
+  /// speed suffers, and the report tells how much. A tree of Quality::Best loses its spatial splits.
+  ///
+  /// `mesh` is the mesh as it is now, with as many triangles as before, in the same order; ids stay.
+  /// `threads` is as in BuildOptions. Copies of this Bvh keep what they had: while there are some, the tree
+  /// is copied first. No other thread may use this object meanwhile.
+  ///
+  /// Throws plumb::Error, and changes nothing, when the number of triangles differs, a vertex index is out of
+  /// range, a triangle has become finite that was left out when the tree was built, or the tree is of width 2
+  /// or compact.
+  RefitReport refit(MeshView mesh, int threads = 0);
 
   /// As Structure::with_simd.
   Bvh with_simd(Simd simd) const { return Bvh(Structure::with_simd(simd)); }

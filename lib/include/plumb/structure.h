@@ -55,7 +55,6 @@ class Structure {
   /// For those that make one.
   explicit Structure(std::shared_ptr<const detail::StructureData> data);
 
- private:
   std::shared_ptr<const detail::StructureData> data_;
 };
 
