@@ -101,7 +101,12 @@ Task build_task(const Source& source) {
     run();
     return std::size_t{0};
   };
-  return {source.mode() + "-1", "", Work::Build, false, check, run};
+  const auto bytes = [=] {
+    return EmbreeScene(peers::EmbreeDevice(source.context.threads), source.context.workload()->view.mesh,
+                       source.robust, source.quality)
+        .bytes();
+  };
+  return {source.mode() + "-1", "", Work::Build, false, check, run, bytes};
 }
 
 }  // namespace

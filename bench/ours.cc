@@ -140,7 +140,10 @@ Task build_task(const TreeSource& source) {
     trace(Bvh(workload->view.mesh, source.options), workload->camera, source.context.threads);
     return differences(workload->camera);
   };
-  return {source.method(), source.target(), Work::Build, true, check, run};
+  const auto bytes = [=] {
+    return Bvh(source.context.workload()->view.mesh, source.options).statistics().bytes;
+  };
+  return {source.method(), source.target(), Work::Build, true, check, run, bytes};
 }
 
 // What a tree is asked for. The build does not depend on the instruction set or the arithmetic.
@@ -179,6 +182,7 @@ std::vector<Task> our_tasks(const Context& context, const std::vector<Simd>& tar
     source.options.quality = quality;
     source.options.simd = targets.front();
     add_tree_tasks(source, true, tasks);
+    add_ray_tasks(source, true, tasks);
   }
   source.options.quality = Quality::Balanced;
   source.options.compact = true;

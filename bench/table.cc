@@ -18,7 +18,7 @@ Row& row_of(std::vector<Row>& rows, const Task& task) {
   for (Row& row : rows) {
     if (row.method == task.method && row.target == task.target) return row;
   }
-  rows.push_back({task.method, task.target, task.exact, {}});
+  rows.push_back({task.method, task.target, task.exact, {}, 0});
   return rows.back();
 }
 
@@ -139,6 +139,10 @@ std::vector<Row> measure(const std::vector<Task>& tasks, int rounds, int threads
   for (const Task& task : tasks) {
     check(task, after_check, rows);
     if (task.work == Work::Frame) pixels = task.run();
+    if (task.bytes) {
+      row_of(rows, task).bytes_per_triangle =
+          static_cast<double>(task.bytes()) / static_cast<double>(task.run());
+    }
   }
   for (const Work work : kWorks) time_work(tasks, work, rounds, threads, rows);
   add_ratios(pixels, baseline, rows);
@@ -159,13 +163,17 @@ std::vector<Row> mean(const std::vector<std::vector<Row>>& tables) {
       }
       rows[r].cells[c] = {std::exp(figure), std::exp(ratio), wrong};  // exp(log(0)) is 0: not measured
     }
+    double bytes = 0;
+    for (const std::vector<Row>& table : tables) bytes += std::log(table[r].bytes_per_triangle) * share;
+    rows[r].bytes_per_triangle = std::exp(bytes);
   }
   return rows;
 }
 
 void print_markdown(std::ostream& out, const std::vector<Row>& rows) {
   out << "| method | SIMD | camera Mrays/s | shadow Mrays/s | occlusion Mrays/s | diffuse Mrays/s | random "
-         "Mrays/s | frame ms | build ms | other answers |\n|---|---|---|---|---|---|---|---|---|---|\n";
+         "Mrays/s | frame ms | build ms | bytes/triangle | other answers "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     out << "| " << row.method << " | " << row.target;
     std::size_t wrong = 0;
@@ -173,7 +181,8 @@ void print_markdown(std::ostream& out, const std::vector<Row>& rows) {
       out << " | " << text_of(cell);
       wrong += cell.wrong;
     }
-    out << " | " << wrong << " |\n";
+    out << " | " << (row.bytes_per_triangle == 0 ? "" : three_digits(row.bytes_per_triangle)) << " | "
+        << wrong << " |\n";
   }
 }
 

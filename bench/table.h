@@ -23,6 +23,7 @@ struct Row {
   std::string method, target;
   bool exact = true;
   std::array<Cell, kWorkCount> cells;
+  double bytes_per_triangle = 0;
 };
 
 /// What speeds are given as multiples of: Embree's single-ray call, or scene by scene the fastest of all its

@@ -35,6 +35,8 @@ struct Task {
   std::function<std::size_t()> check;
   /// Does the work once; returns how many rays, pixels or triangles that was.
   std::function<std::size_t()> run;
+  /// Of a build: bytes that the structure keeps, after check().
+  std::function<std::size_t()> bytes = nullptr;
 };
 
 /// What all tasks at a view share.

@@ -10,10 +10,12 @@
 
 #include "build/binned_sah.h"
 #include "build/box.h"
+#include "build/sah_rules.h"
 #include "build/tree_check.h"
 #include "build/tree_statistics.h"
 #include "build_scenes.h"
 #include "build_util.h"
+#include "plumb/error.h"
 #include "support/fp_modes.h"
 #include "wide/collapse.h"
 #include "wide/wide_cuts.h"
@@ -156,6 +158,14 @@ TEST_SUITE("collapse") {
       CHECK(eight == doctest::Approx(AllWays(tree, 8).least(0)).epsilon(1e-5));
       CHECK(eight <= four);
     }
+  }
+
+  TEST_CASE("32 bits tell apart all nodes and blocks of the largest tree") {
+    // A binary tree has at most as many leaves as references; blocks are no more than leaves and full ones.
+    constexpr std::uint64_t kNodes = 2 * std::uint64_t{kMostTreeTriangles} - 1;
+    static_assert(kNodes < kNoChild);
+    CHECK_NOTHROW(require_tree_size(kMostTreeTriangles));
+    CHECK_THROWS_AS(require_tree_size(kMostTreeTriangles + 1), Error);
   }
 
   TEST_CASE("where areas say nothing, nodes are full") {

@@ -42,6 +42,7 @@ HWY_AFTER_NAMESPACE();
 #include "build_util.h"
 #include "plumb/bvh.h"
 #include "plumb/error.h"
+#include "support/effort.h"
 #include "support/random.h"
 #include "wide/collapse.h"
 #include "wide/compact_tree.h"
@@ -155,12 +156,12 @@ TEST_SUITE("compact") {
   }
 
   TEST_CASE("rays see the same, and a mesh whose triangles share vertices takes less memory") {
-    for (const build_scenes::Scene& scene : build_scenes::all(3000)) {
+    for (const build_scenes::Scene& scene : build_scenes::all(400)) {
       CAPTURE(scene.name);
       const Bvh plain(scene.mesh), packed(scene.mesh, {.compact = true});
       std::vector<Ray> rays;
       hard::Random random(9);
-      for (int i = 0; i < 150; ++i) {
+      for (int i = 0; i < hard::effort(64); ++i) {
         const auto corner = [&] {
           return scene.mesh.positions[random.below(static_cast<std::uint32_t>(scene.mesh.positions.size()))];
         };
@@ -177,7 +178,7 @@ TEST_SUITE("compact") {
         std::vector<Hit> hits(rays.size()), all, expected;
         bvh.closest(rays, hits);
         for (std::size_t i = 0; i < rays.size(); ++i) CHECK(hits[i] == plain.closest(rays[i]));
-        for (std::size_t i = 0; i < 50; ++i) {
+        for (std::size_t i = 0; i < rays.size(); i += 8) {
           bvh.all(rays[i], all);
           plain.all(rays[i], expected);
           CHECK(all == expected);
@@ -205,6 +206,14 @@ TEST_SUITE("compact") {
                          static_cast<double>(Bvh(mesh).statistics().bytes);
     CAPTURE(share);
     CHECK(share < 0.65);
+  }
+
+  TEST_CASE("units are counted up to 32 bits and not beyond") {
+    std::vector<std::uint32_t> units = {0, 0xfffffff0u, 0xfu};
+    sum_units(units);
+    CHECK(units == std::vector<std::uint32_t>{0, 0xfffffff0u, 0xffffffffu});
+    units = {0, 0xfffffff0u, 0x10u};
+    CHECK_THROWS_AS(sum_units(units), Error);
   }
 
   TEST_CASE("an empty scene, and options that it is not for") {

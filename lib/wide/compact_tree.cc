@@ -65,6 +65,19 @@ void write(const TriangleBlock<W>& block, const Vertices<W>& vertices, CompactUn
 
 }  // namespace
 
+void sum_units(std::span<std::uint32_t> units) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t& unit : units) {
+    sum += unit;
+    if (sum > 0xffffffffu) {
+      throw Error(
+          "plumb: the leaves of a compact tree of this mesh would take 64 GiB and more; split the mesh, or "
+          "build without BuildOptions::compact");
+    }
+    unit = static_cast<std::uint32_t>(sum);
+  }
+}
+
 template <int W>
 CompactTree<W> compact(WideTree<W> tree, int threads) {
   // How many triangles a block holds is in the node above it.
@@ -88,12 +101,8 @@ CompactTree<W> compact(WideTree<W> tree, int threads) {
             CompactLayout<W>::units(Vertices<W>(tree.blocks[i], triangles[i]).count));
       }
     });
-    std::uint64_t last = 0;
-    for (std::uint32_t& unit : place) {
-      last += unit;
-      if (last > 0xffffffffu) throw Error("plumb: a compact tree of so many triangles would pass 64 GiB");
-      unit = static_cast<std::uint32_t>(last);
-    }
+    sum_units(place);
+    const std::size_t last = place.back();
     packed.units.resize(last + kSlackUnits);
     std::memset(static_cast<void*>(packed.units.data() + last), 0, kSlackUnits * sizeof(CompactUnit));
     for_pieces(tree.blocks.size(), pieces, [&](std::size_t, std::size_t begin, std::size_t end) {

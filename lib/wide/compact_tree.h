@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "base/aligned.h"
 #include "build/binary_tree.h"
@@ -52,6 +53,10 @@ struct CompactTree {
            static_cast<std::uint32_t>(CompactLayout<W>::units(block(unit)[CompactLayout<W>::kVertices]));
   }
 };
+
+/// Replaces each number of units by the sum up to it. Throws plumb::Error where that is beyond 32 bits: 64
+/// GiB.
+void sum_units(std::span<std::uint32_t> units);
 
 /// Takes the tree's nodes, and packs its blocks. The result does not depend on `threads`.
 template <int W>

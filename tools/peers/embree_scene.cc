@@ -33,8 +33,14 @@ bool in_range(const glm::vec3& v) {
 std::string embree_version() { return "Embree " RTC_VERSION_STRING; }
 
 EmbreeDevice::EmbreeDevice(int threads)
-    : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
+    : bytes_(std::make_shared<std::atomic<std::ptrdiff_t>>(0)),
+      device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
   check_error(device_, "to make a device");
+  const auto count = [](void* bytes, ssize_t more, bool) {
+    *static_cast<std::atomic<std::ptrdiff_t>*>(bytes) += more;
+    return true;
+  };
+  rtcSetDeviceMemoryMonitorFunction(device_, count, bytes_.get());
 }
 
 EmbreeScene::EmbreeScene(const EmbreeDevice& device, MeshView mesh, bool robust, RTCBuildQuality quality)
@@ -48,9 +54,11 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, MeshView mesh, bool robust,
   copy(geometry, mesh.triangles, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3);
   rtcSetGeometryBuildQuality(geometry, quality);
   rtcCommitGeometry(geometry);
+  const std::size_t before = device_.bytes();
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene_);
+  bytes_ = device_.bytes() - before;
   check_error(device_.get(), "to build");
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -18,15 +21,21 @@ class EmbreeDevice {
  public:
   explicit EmbreeDevice(int threads);
   ~EmbreeDevice() { rtcReleaseDevice(device_); }
-  EmbreeDevice(const EmbreeDevice& other) : device_(other.device_) { rtcRetainDevice(device_); }
+  EmbreeDevice(const EmbreeDevice& other) : bytes_(other.bytes_), device_(other.device_) {
+    rtcRetainDevice(device_);
+  }
   EmbreeDevice& operator=(EmbreeDevice other) {
+    std::swap(bytes_, other.bytes_);
     std::swap(device_, other.device_);
     return *this;
   }
 
   RTCDevice get() const { return device_; }
+  /// What Embree has taken and not given back.
+  std::size_t bytes() const { return static_cast<std::size_t>(bytes_->load()); }
 
  private:
+  std::shared_ptr<std::atomic<std::ptrdiff_t>> bytes_;
   RTCDevice device_;
 };
 
@@ -40,9 +49,13 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   RTCScene get() const { return scene_; }
+  /// What building took and kept of a device that has only this scene: the tree and its triangles, without
+  /// the copy of the mesh.
+  std::size_t bytes() const { return bytes_; }
 
  private:
   EmbreeDevice device_;
+  std::size_t bytes_ = 0;
   RTCScene scene_;
 };
 
