@@ -31,8 +31,8 @@ struct Source {
   }
   std::shared_ptr<EmbreeScene> scene(const Workload& workload) const {
     return scenes->get(context.name.title() + "/" + mode(), [&] {
-      return std::make_shared<EmbreeScene>(peers::EmbreeDevice(context.threads), workload.view.mesh, robust,
-                                           quality);
+      return std::make_shared<EmbreeScene>(peers::EmbreeDevice(context.threads, context.peer_isa),
+                                           workload.view.mesh, robust, quality);
     });
   }
 };
@@ -93,8 +93,8 @@ void add_ray_tasks(const Source& source, std::vector<Task>& tasks) {
 Task build_task(const Source& source) {
   const auto run = [=] {
     const std::shared_ptr<Workload> workload = source.context.workload();
-    const EmbreeScene scene(peers::EmbreeDevice(source.context.threads), workload->view.mesh, source.robust,
-                            source.quality);
+    const EmbreeScene scene(peers::EmbreeDevice(source.context.threads, source.context.peer_isa),
+                            workload->view.mesh, source.robust, source.quality);
     return workload->view.mesh.triangles.size();
   };
   const auto check = [=] {
@@ -102,8 +102,8 @@ Task build_task(const Source& source) {
     return std::size_t{0};
   };
   const auto bytes = [=] {
-    return EmbreeScene(peers::EmbreeDevice(source.context.threads), source.context.workload()->view.mesh,
-                       source.robust, source.quality)
+    return EmbreeScene(peers::EmbreeDevice(source.context.threads, source.context.peer_isa),
+                       source.context.workload()->view.mesh, source.robust, source.quality)
         .bytes();
   };
   return {source.mode() + "-1", "", Work::Build, false, check, run, bytes};

@@ -32,7 +32,7 @@ std::vector<Task> all_tasks(const ViewName& name, const Options& options, int th
   const auto workload = [=] {
     return workloads->get(name.title(), [&] { return make_workload(load_view(name, width, height)); });
   };
-  const Context context{name, threads, trees, workload};
+  const Context context{name, threads, trees, options.peer_isa, workload};
   std::vector<Task> tasks = our_tasks(context, options.targets);
   for (Task& task : embree_tasks(context)) tasks.push_back(std::move(task));
   const auto unwanted = [&](const Task& task) {

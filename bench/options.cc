@@ -26,6 +26,7 @@ before a time counts; those of the fast and the watertight arithmetic and of Emb
   --rounds=N       how often the table runs each method; it shows medians (5)
   --threads=LIST   counts or "all", with commas (1,all)
   --simd=LIST      instruction sets, with commas, or "all" (all)
+  --peer-isa=ISA   the most that Embree may use: sse4.2, avx, avx2 (all that the machine has)
   --size=WxH       pixels of a frame (1280x720)
 )";
 
@@ -104,6 +105,8 @@ Options parse_options(int argc, const char* const* argv) {
       options.threads = parse_threads(value, argument);
     } else if (key == "--simd") {
       options.targets = parse_targets(value);
+    } else if (key == "--peer-isa") {
+      options.peer_isa = value;
     } else if (key == "--size") {
       parse_size(value, argument, options);
     } else if (argument.rfind("-", 0) == 0) {

@@ -18,6 +18,7 @@ struct Options {
   int rounds = 5;            ///< of the table
   std::vector<int> threads;  ///< each at least 1
   std::vector<Simd> targets;
+  std::string peer_isa;  ///< for Embree; empty: all that the machine has
   std::vector<ViewName> views;
 };
 

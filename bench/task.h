@@ -44,6 +44,7 @@ struct Context {
   ViewName name;
   int threads;                                          ///< at least 1
   std::size_t trees;                                    ///< how many trees of a kind to keep
+  std::string peer_isa;                                 ///< the most that the peer may use; empty: anything
   std::function<std::shared_ptr<Workload>()> workload;  ///< makes it when first asked for
 };
 

@@ -32,9 +32,10 @@ bool in_range(const glm::vec3& v) {
 
 std::string embree_version() { return "Embree " RTC_VERSION_STRING; }
 
-EmbreeDevice::EmbreeDevice(int threads)
+EmbreeDevice::EmbreeDevice(int threads, const std::string& isa)
     : bytes_(std::make_shared<std::atomic<std::ptrdiff_t>>(0)),
-      device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
+      device_(
+          rtcNewDevice(("threads=" + std::to_string(threads) + (isa.empty() ? "" : ",isa=" + isa)).c_str())) {
   check_error(device_, "to make a device");
   const auto count = [](void* bytes, ssize_t more, bool) {
     *static_cast<std::atomic<std::ptrdiff_t>*>(bytes) += more;

@@ -16,10 +16,12 @@ namespace plumb::peers {
 /// "Embree 3.13.5".
 std::string embree_version();
 
-/// A device of at most `threads` threads, which may be shared by many scenes. Throws plumb::Error.
+/// A device of at most `threads` threads, which may be shared by many scenes. `isa` is what Embree's own
+/// configuration calls the most that it may use ("sse4.2", "avx2"); empty: all that the machine has. Throws
+/// plumb::Error.
 class EmbreeDevice {
  public:
-  explicit EmbreeDevice(int threads);
+  explicit EmbreeDevice(int threads, const std::string& isa = "");
   ~EmbreeDevice() { rtcReleaseDevice(device_); }
   EmbreeDevice(const EmbreeDevice& other) : bytes_(other.bytes_), device_(other.device_) {
     rtcRetainDevice(device_);

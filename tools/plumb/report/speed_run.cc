@@ -22,7 +22,7 @@ constexpr std::size_t kTrees = 64;
 
 std::vector<Task> tasks_of(const bench::ViewName& name, const SpeedOptions& options,
                            const std::shared_ptr<Workload>& workload) {
-  const bench::Context context{name, options.threads, kTrees, [workload] { return workload; }};
+  const bench::Context context{name, options.threads, kTrees, "", [workload] { return workload; }};
   std::vector<Task> tasks = bench::our_tasks(context, options.targets);
   for (Task& task : bench::embree_tasks(context)) tasks.push_back(std::move(task));
   // Builds have no errors, and what is left out of the rays and rows would show the same ones.
