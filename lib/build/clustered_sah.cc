@@ -158,6 +158,7 @@ class Clusters {
     for_pieces(parts.size(), piece_count(parts.size(), 4),
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  for (std::size_t i = begin; i < end; ++i) {
+                   parts_[i].nodes.reserve(parts[i].size() / 2);
                    TreeletBuilder builder(rules_, refs_, parts_[i]);
                    cut(parts[i], builder);
                  }

@@ -5,15 +5,6 @@
 #include <limits>
 
 namespace plumb::detail {
-namespace {
-
-Float4 box_half_area_terms(const Box4& box, Float4 unit) {
-  const Float4 size = box.hi * unit - box.lo * unit;
-  return size * __builtin_shufflevector(size, size, 1, 2, 0, 3);
-}
-
-}  // namespace
-
 BinMap::BinMap(const Box4& centres, float unit, int bins)
     : unit_(splat(unit)), origin_(centres.lo), scale_(splat(0.0f)), bins_(bins) {
   // A little less than bins / extent, so that the greatest centre, whatever rounding does, still
@@ -50,9 +41,9 @@ void SahBins::add(const SahBins& other) {
 }
 
 Float4 SahBins::half_areas(const Box4* boxes, Float4 unit) {
-  const Float4 a = box_half_area_terms(boxes[0], unit);
-  const Float4 b = box_half_area_terms(boxes[1], unit);
-  const Float4 c = box_half_area_terms(boxes[2], unit);
+  const Float4 a = half_area_terms(boxes[0], unit);
+  const Float4 b = half_area_terms(boxes[1], unit);
+  const Float4 c = half_area_terms(boxes[2], unit);
   const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   const Float4 high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
   return (__builtin_shufflevector(low, c, 0, 1, 4, 7) + __builtin_shufflevector(low, c, 2, 3, 5, 7)) +
@@ -114,11 +105,6 @@ std::size_t SahBins::count_left(const SahSplit& split) const {
 void SahBins::boxes(const SahSplit& split, Box4& left, Box4& right) const {
   for (int bin = 0; bin < split.bin; ++bin) left.add(box_[bin][split.axis]);
   for (int bin = split.bin; bin < bins_; ++bin) right.add(box_[bin][split.axis]);
-}
-
-float half_area(const Box4& box, Float4 unit) {
-  const Float4 terms = box_half_area_terms(box, unit);
-  return (terms[0] + terms[1]) + terms[2];
 }
 
 void partition(const TriangleRef* refs, std::size_t count, const BinMap& map, const SahSplit& split,

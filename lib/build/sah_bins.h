@@ -64,8 +64,17 @@ class SahBins {
   Box4 box_[kMaxBins][3];
 };
 
+/// The three terms of half a box's area, in the scene's unit.
+inline Float4 half_area_terms(const Box4& box, Float4 unit) {
+  const Float4 size = box.hi * unit - box.lo * unit;
+  return size * __builtin_shufflevector(size, size, 1, 2, 0, 3);
+}
+
 /// Half the area of a box, in the scene's unit.
-float half_area(const Box4& box, Float4 unit);
+inline float half_area(const Box4& box, Float4 unit) {
+  const Float4 terms = half_area_terms(box, unit);
+  return (terms[0] + terms[1]) + terms[2];
+}
 
 /// Copies the triangles to `left` and `right` by the split, keeping their order, and sets the box of each
 /// side's doubled centres. Both lie in one array, apart from `refs`.

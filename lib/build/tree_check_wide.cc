@@ -23,7 +23,7 @@ bool extent_holds(float extent, const glm::vec3 vertex[3]) {
     greatest = std::max(greatest, sum);
   }
   const double least = greatest * (1.0 + 2 * 0x1p-24);  // the sum in float, in any order
-  const double most = std::max(greatest * (1.0 + 8 * 0x1p-24), 0x1p-30);
+  const double most = std::max(greatest * (1.0 + 12 * 0x1p-24), 0x1p-30);
   return double{extent} >= least && extent >= 0x1p-30f &&
          (double{extent} <= most || most > double{std::numeric_limits<float>::max()});
 }

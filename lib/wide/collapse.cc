@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kPieceSize = 512;  // wide nodes
 constexpr std::size_t kFetchAhead = 2;
+constexpr std::size_t kFewTriangles = 80000;
 
 // The children of a wide node: which nodes of the binary tree they are, and what WideNode::child will be.
 template <int W>
@@ -141,13 +142,15 @@ WideTree<W> collapse(const BinaryTree& tree, MeshView mesh, std::uint32_t first_
   wide.box = tree.nodes.empty() ? empty_box() : tree.nodes[0].box;
   wide.greatest = greatest_coordinate(wide.box);
 
+  // A mesh that lies in the second cache is at hand.
+  const bool fetch = mesh.triangles.size() > kFewTriangles;
   const Filler<W> filler(tree, mesh, first_id, wide);
   in_arena(threads, [&] {
     const std::size_t pieces = piece_count(plan.nodes.size(), kPieceSize);
     for_pieces(plan.nodes.size(), pieces, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (i + 2 * kFetchAhead < end) filler.fetch_triangles(plan.nodes[i + 2 * kFetchAhead]);
-        if (i + kFetchAhead < end) filler.fetch_vertices(plan.nodes[i + kFetchAhead]);
+        if (fetch && i + 2 * kFetchAhead < end) filler.fetch_triangles(plan.nodes[i + 2 * kFetchAhead]);
+        if (fetch && i + kFetchAhead < end) filler.fetch_vertices(plan.nodes[i + kFetchAhead]);
         filler.fill(plan.nodes[i], wide.nodes[i]);
       }
     });
