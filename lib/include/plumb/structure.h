@@ -55,7 +55,7 @@ class Structure {
   /// For those that make one.
   explicit Structure(std::shared_ptr<const detail::StructureData> data);
 
-  std::shared_ptr<const detail::StructureData> data_;
+  std::shared_ptr<const detail::StructureData> data_;  ///< for those that can change what they hold
 };
 
 }  // namespace plumb
