@@ -13,6 +13,7 @@
 #include "build_scenes.h"
 #include "build_util.h"
 #include "plumb/bvh.h"
+#include "plumb/cast.h"
 #include "plumb/error.h"
 #include "support/fp_modes.h"
 #include "support/random.h"
@@ -61,6 +62,13 @@ void check_same(const Bvh& bvh, const TriangleMesh& mesh, const std::vector<Ray>
   std::size_t different = 0;
   for (const Ray& ray : rays) different += bvh.any(ray) == anew.any(ray) ? 0 : 1;
   CHECK(different == 0);
+  for (const glm::vec3& eye : {glm::vec3(-20, 30, -10), glm::vec3(3, 1, 4), glm::vec3(0, 0, 0)}) {
+    const Camera camera = Camera::look_at(eye, {9, 0.5f, 11}, {0, 1, 0}, 60.0, 90, 70);
+    Frame frame(90, 70), wanted(90, 70);
+    cast(bvh, camera, frame);
+    cast(Bvh(mesh, {.width = 2}), camera, wanted);
+    CHECK(compare(frame, wanted).equal());
+  }
   CHECK(bvh.statistics().unseen_triangles == anew.statistics().unseen_triangles);
 }
 
