@@ -113,8 +113,18 @@ Task cast_task(const TreeSource& source) {
                     [=](Workload& workload) {
                       CastOptions options;
                       options.threads = source.context.threads;
+                      options.method = CastMethod::Rays;
                       cast(*source.tree(workload), workload.view.camera, workload.frame, options);
                     });
+}
+
+Task tile_task(const TreeSource& source) {
+  return frame_task("tile", source.target(), true, source.context, [=](Workload& workload) {
+    CastOptions options;
+    options.threads = source.context.threads;
+    options.method = CastMethod::Tiles;
+    cast(*source.tree(workload), workload.view.camera, workload.frame, options);
+  });
 }
 
 Task raster_task(const Context& context, Simd simd) {
@@ -176,6 +186,7 @@ std::vector<Task> our_tasks(const Context& context, const std::vector<Simd>& tar
       source.options.simd = simd;
       add_tree_tasks(source, simd == targets.front(), tasks);
       if (width == 8) add_ray_tasks(source, true, tasks);
+      if (width == 8) tasks.push_back(tile_task(source));
     }
   }
   for (const Quality quality : {Quality::Fast, Quality::Best}) {

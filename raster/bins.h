@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "pixels/projection.h"
 #include "pixels/screen_triangle.h"
 #include "plumb/mesh.h"
 #include "raster/kernels.h"
-#include "raster/projection.h"
 
 namespace plumb::detail {
 

@@ -79,17 +79,14 @@ void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t t
   const std::vector<BinEntry> entries = bins_.list(tile);
   if (entries.empty()) return;
   const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
-  const TileTask task{camera_,
-                      projection_.exact_only,
-                      mesh,
-                      first_id,
-                      static_cast<int>(tile % columns) * kTilePx,
+  const TileView view{camera_, projection_.exact_only, static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
+  const MeshTriangles triangles{mesh, first_id};
   if (counts_ != nullptr) {
-    kernels_.count_tile(task, bins_.triangles(), entries, frame, *counts_);
+    kernels_.count_tile(view, triangles, bins_.triangles(), entries, frame, *counts_);
     return;
   }
-  kernels_.draw_tile(task, bins_.triangles(), entries, frame);
+  kernels_.draw_tile(view, triangles, bins_.triangles(), entries, frame);
 }
 
 }  // namespace plumb::detail

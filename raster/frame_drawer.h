@@ -2,13 +2,13 @@
 
 #include <functional>
 
+#include "pixels/projection.h"
 #include "plumb/camera.h"
 #include "plumb/frame.h"
 #include "plumb/mesh.h"
 #include "plumb/raster.h"
 #include "raster/bins.h"
 #include "raster/kernels.h"
-#include "raster/projection.h"
 
 namespace plumb::detail {
 

@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <span>
 
+#include "pixels/projection.h"
 #include "pixels/screen_triangle.h"
 #include "pixels/tile_state.h"
 #include "plumb/frame.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
-#include "raster/projection.h"
+#include "raster/mesh_triangles.h"
 
 namespace plumb::detail {
 
@@ -49,10 +50,10 @@ struct RasterKernels {
   SetupCounts (*set_up)(const Projection& view, MeshView mesh, std::size_t first, std::size_t last,
                         const BinnedTriangles& to);
   /// Draws the entries into a tile and merges it into the frame.
-  void (*draw_tile)(const TileTask& task, const BinnedTriangles& triangles, std::span<const BinEntry> entries,
-                    Frame& frame);
+  void (*draw_tile)(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
+                    std::span<const BinEntry> entries, Frame& frame);
   /// The same, and counts what it tests.
-  void (*count_tile)(const TileTask& task, const BinnedTriangles& triangles,
+  void (*count_tile)(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
                      std::span<const BinEntry> entries, Frame& frame, RasterCounts& counts);
 };
 

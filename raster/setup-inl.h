@@ -1,5 +1,4 @@
-// Sets triangles up for the tiles: their planes over the frame, a vector of triangles at a time, in double.
-// Included once per Highway target.
+// Sets a mesh's triangles up for the tiles. Included once per Highway target.
 
 #if defined(PLUMB_RASTER_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLUMB_RASTER_SETUP_INL_H_
@@ -12,210 +11,18 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/mask_bits-inl.h"
-#include "base/round-inl.h"
 #include "hwy/highway.h"
+#include "pixels/projection.h"
 #include "pixels/screen_triangle.h"
 #include "pixels/tile_planes-inl.h"
+#include "pixels/triangle_setup-inl.h"
 #include "raster/candidates-inl.h"
 #include "raster/kernels.h"
-#include "raster/projection.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// A vector of triangles on the way: corners seen from the eye, and ScreenTriangle's fields.
-struct SetupLanes {
-  alignas(64) double corner[9][8];
-  alignas(64) double size[3][8];  // |corner|_1
-  alignas(64) double turn[8];
-
-  alignas(64) double a[4][8], b[4][8], c[4][8];
-  alignas(64) float error[4][8];
-
-  // The same about the tile of the upper left pixel of its box.
-  alignas(64) float tile_a[4][8], tile_b[4][8], tile_c[4][8], tile_error[4][8];
-};
-
-// n.D over the frame times `scale` is the plane; `error` is its bound before scaling.
-HWY_INLINE void StorePlane(const Projection& view, int plane, SetupVector nx, SetupVector ny, SetupVector nz,
-                           SetupVector error, SetupVector scale, SetupLanes& lanes) {
-  const SetupTag d;
-  const hn::Rebind<float, SetupTag> df;
-  hn::Store(hn::Mul(Dot(nx, ny, nz, view.du), scale), d, lanes.a[plane]);
-  hn::Store(hn::Mul(Dot(nx, ny, nz, view.dv), scale), d, lanes.b[plane]);
-  hn::Store(hn::Mul(Dot(nx, ny, nz, view.c0), scale), d, lanes.c[plane]);
-  // Rounded up when it becomes a float.
-  const SetupVector scaled = hn::Mul(error, hn::Abs(scale));
-  const SetupVector padded = hn::MulAdd(scaled, hn::Set(d, 1.0 + 0x1p-20), hn::Set(d, 0x1p-140));
-  hn::Store(RoundToFloat(df, padded), df, lanes.error[plane]);
-}
-
-// How far n.d can be from n.D for the ray d of a pixel.
-HWY_INLINE SetupVector RayRounding(const Projection& view, SetupVector nx, SetupVector ny, SetupVector nz) {
-  const SetupTag d;
-  return hn::Mul(Dot(hn::Abs(nx), hn::Abs(ny), hn::Abs(nz), view.offset), hn::Set(d, 1.001));
-}
-
-// With p, q the triangle's vertices seen from the eye (each off by u of itself), n = p x q, and the
-// edge function E = d.n at a pixel's float ray d:
-//   n:       a component by (2 for p and q, 2 for product and difference) 4 u (|p_j q_k| + |p_k q_j|)
-//   n.du, n.dv, n.c0: 3 u for the dot product, 2 u for scaling
-//   c + a x + b y: 4 u
-// each times at most G |p|_1 |q|_1, so 13 u G |p|_1 |q|_1 (20 below: second order, and a few more sums of
-// DropUncovered), and for the rounding of the ray: sum of offset_k |n_k|.
-HWY_INLINE void SetUpEdge(const Projection& view, int edge, SetupLanes& lanes) {
-  const SetupTag d;
-  const int next = (edge + 1) % 3;
-  const auto load = [&](int v, int axis) HWY_ATTR { return hn::Load(d, lanes.corner[3 * v + axis]); };
-  const SetupVector px = load(edge, 0), py = load(edge, 1), pz = load(edge, 2);
-  const SetupVector qx = load(next, 0), qy = load(next, 1), qz = load(next, 2);
-  const SetupVector nx = hn::MulSub(py, qz, hn::Mul(pz, qy));
-  const SetupVector ny = hn::MulSub(pz, qx, hn::Mul(px, qz));
-  const SetupVector nz = hn::MulSub(px, qy, hn::Mul(py, qx));
-  const SetupVector sizes = hn::Mul(hn::Load(d, lanes.size[edge]), hn::Load(d, lanes.size[next]));
-  const SetupVector error =
-      hn::MulAdd(sizes, hn::Set(d, 20.0 * kSetupU * view.greatest), RayRounding(view, nx, ny, nz));
-  // One unit to a pixel; where no step changes the function, one unit its value. What is left, 1/0, ends in
-  // infinities and NaNs, which every later test takes for "not certain".
-  const SetupVector slope = hn::Add(hn::Abs(Dot(nx, ny, nz, view.du)), hn::Abs(Dot(nx, ny, nz, view.dv)));
-  const SetupVector unit =
-      hn::IfThenElse(hn::Gt(slope, hn::Zero(d)), slope, hn::Abs(Dot(nx, ny, nz, view.c0)));
-  StorePlane(view, edge, nx, ny, nz, error, hn::Div(hn::Load(d, lanes.turn), unit), lanes);
-}
-
-// The depth's plane. Two words of bits: triangles whose side is open, and those of which no pixel sees
-// anything, two vertices being equal (one edge function is exactly zero then, and its displaced sign too).
-//
-// The values and bounds of T = N.a and den = N.d are those of exact/intersect.cc's double stage: they
-// hold with and without fused operations. 1/t = den / T as a plane: 4 u for N, 3 u for the dot product, 2 u
-// for scaling, 4 u for c + a x + b y, each times G L^2 (20 below), and the rounding of the ray; and T's error
-// and the division, relative.
-HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const float* const corner[9],
-                           std::uint32_t& side_open, std::uint32_t& flat) {
-  const SetupTag d;
-  const hn::Rebind<float, SetupTag> df;
-  const auto load = [&](int v, int axis)
-                        HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corner[3 * v + axis])); };
-  const SetupVector v0x = load(0, 0), v0y = load(0, 1), v0z = load(0, 2);
-  const SetupVector v1x = load(1, 0), v1y = load(1, 1), v1z = load(1, 2);
-  const SetupVector v2x = load(2, 0), v2y = load(2, 1), v2z = load(2, 2);
-  const SetupVector e1x = hn::Sub(v1x, v0x), e1y = hn::Sub(v1y, v0y), e1z = hn::Sub(v1z, v0z);
-  const SetupVector e2x = hn::Sub(v2x, v0x), e2y = hn::Sub(v2y, v0y), e2z = hn::Sub(v2z, v0z);
-  const SetupVector size1 = Norm1(e1x, e1y, e1z), size2 = Norm1(e2x, e2y, e2z);
-  const SetupVector size3 = Norm1(hn::Sub(v2x, v1x), hn::Sub(v2y, v1y), hn::Sub(v2z, v1z));
-  flat = MaskBits(d, hn::Eq(hn::Min(size1, hn::Min(size2, size3)), hn::Zero(d)));
-
-  const SetupVector nx = hn::MulSub(e1y, e2z, hn::Mul(e1z, e2y));
-  const SetupVector ny = hn::MulSub(e1z, e2x, hn::Mul(e1x, e2z));
-  const SetupVector nz = hn::MulSub(e1x, e2y, hn::Mul(e1y, e2x));
-  const SetupVector ax = hn::Load(d, lanes.corner[0]), ay = hn::Load(d, lanes.corner[1]),
-                    az = hn::Load(d, lanes.corner[2]);
-  const SetupVector reach = hn::Max(hn::Abs(ax), hn::Max(hn::Abs(ay), hn::Abs(az)));
-  const SetupVector extent = hn::Max(size1, size2);
-  const SetupVector extent2 = hn::Mul(extent, extent);
-  const SetupVector t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
-  const SetupVector t_error = hn::Mul(hn::Mul(reach, extent2), hn::Set(d, 8.2 * kSetupU));
-  const SetupVector inverse = hn::Div(hn::Set(d, 1.0), t_num);
-  const SetupVector relative = hn::Mul(t_error, hn::Abs(inverse));
-
-  // Seen in front, t = T / den > 0: the edge functions have den's sign, which is T's.
-  const auto sided = hn::Lt(relative, hn::Set(d, 0x1p-10));
-  side_open = MaskBits(d, hn::Not(sided));
-  const SetupVector one = hn::Set(d, 1.0);
-  hn::Store(hn::IfThenElse(hn::And(sided, hn::Lt(t_num, hn::Zero(d))), hn::Neg(one), one), d, lanes.turn);
-
-  const SetupVector den_error =
-      hn::MulAdd(extent2, hn::Set(d, 20.0 * kSetupU * view.greatest), RayRounding(view, nx, ny, nz));
-  static_assert(ScreenTriangle::kDepthRelative == 0x1p-26);
-  const SetupVector error = hn::IfThenElse(hn::Lt(relative, hn::Set(d, 0x1p-27)),
-                                           hn::Mul(den_error, hn::Set(d, 1.01)), hn::Set(d, kDoubleInfinity));
-  StorePlane(view, 3, nx, ny, nz, error, inverse, lanes);
-}
-
-// A bit for each triangle whose box is at most two pixels wide and high, none of which it covers.
-HWY_INLINE std::uint32_t Uncovered(const SetupLanes& lanes, const SetupCandidates& from, size_t first) {
-  const SetupTag d;
-  const hn::Rebind<float, SetupTag> df;
-  const hn::Rebind<std::int32_t, SetupTag> di;
-  const auto load = [&](const std::int32_t* side)
-                        HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(di, side + first)); };
-  const SetupVector x0 = load(from.x0), y0 = load(from.y0);
-  const SetupVector width = hn::Sub(load(from.x1), x0), height = hn::Sub(load(from.y1), y0);
-  auto missed00 = hn::FirstN(d, 0), missed10 = missed00, missed01 = missed00, missed11 = missed00;
-  for (int edge = 0; edge < 3; ++edge) {
-    const SetupVector a = hn::Load(d, lanes.a[edge]), b = hn::Load(d, lanes.b[edge]);
-    const SetupVector limit = hn::Neg(hn::PromoteTo(d, hn::Load(df, lanes.error[edge])));
-    const SetupVector at00 = hn::MulAdd(b, y0, hn::MulAdd(a, x0, hn::Load(d, lanes.c[edge])));
-    const SetupVector at10 = hn::MulAdd(a, width, at00);
-    missed00 = hn::Or(missed00, hn::Lt(at00, limit));
-    missed10 = hn::Or(missed10, hn::Lt(at10, limit));
-    missed01 = hn::Or(missed01, hn::Lt(hn::MulAdd(b, height, at00), limit));
-    missed11 = hn::Or(missed11, hn::Lt(hn::MulAdd(b, height, at10), limit));
-  }
-  const SetupVector one = hn::Set(d, 1.0);
-  const auto small = hn::And(hn::Le(width, one), hn::Le(height, one));
-  const auto missed = hn::And(hn::And(missed00, missed10), hn::And(missed01, missed11));
-  return MaskBits(d, hn::And(small, missed));
-}
-
-HWY_INLINE void LoadCorners(const Projection& view, const float* const corner[9], SetupLanes& lanes) {
-  const SetupTag d;
-  const hn::Rebind<float, SetupTag> df;
-  const double eye[3] = {view.eye.x, view.eye.y, view.eye.z};
-  for (int v = 0; v < 3; ++v) {
-    const auto seen = [&](int axis) HWY_ATTR {
-      return hn::Sub(hn::PromoteTo(d, hn::Load(df, corner[3 * v + axis])), hn::Set(d, eye[axis]));
-    };
-    const SetupVector x = seen(0), y = seen(1), z = seen(2);
-    hn::Store(x, d, lanes.corner[3 * v]);
-    hn::Store(y, d, lanes.corner[3 * v + 1]);
-    hn::Store(z, d, lanes.corner[3 * v + 2]);
-    hn::Store(Norm1(x, y, z), d, lanes.size[v]);
-  }
-}
-
-// Places the planes about the tiles of the boxes' first pixels.
-HWY_INLINE void PlaceLanes(const SetupCandidates& from, size_t first, SetupLanes& lanes) {
-  const SetupTag d;
-  const hn::Rebind<float, SetupTag> df;
-  const hn::Rebind<std::int32_t, SetupTag> di;
-  static_assert(kTilePx == 32);
-  const auto centre_of = [&](const std::int32_t* side) HWY_ATTR {
-    const auto begin = hn::ShiftLeft<5>(hn::ShiftRight<5>(hn::LoadU(di, side + first)));
-    return hn::Add(hn::PromoteTo(d, begin), hn::Set(d, 0.5 * (kTilePx - 1)));
-  };
-  const SetupVector x = centre_of(from.x0), y = centre_of(from.y0);
-  for (int k = 0; k < 4; ++k) {
-    const SetupVector a = hn::Load(d, lanes.a[k]), b = hn::Load(d, lanes.b[k]);
-    auto centre = hn::Zero(df), error = hn::Zero(df);
-    PlacePlane(d, a, b, hn::Load(d, lanes.c[k]), hn::PromoteTo(d, hn::Load(df, lanes.error[k])), x, y,
-               hn::Set(d, kPlaneRelative[k]), hn::Set(d, kPlaneLimit[k]), centre, error);
-    hn::Store(RoundToFloat(df, a), df, lanes.tile_a[k]);
-    hn::Store(RoundToFloat(df, b), df, lanes.tile_b[k]);
-    hn::Store(centre, df, lanes.tile_c[k]);
-    hn::Store(error, df, lanes.tile_error[k]);
-  }
-}
-
-HWY_INLINE void StorePlaced(const SetupLanes& lanes, size_t lane, const SetupCandidates& from, size_t i,
-                            int tile_columns, TileTriangle& to) {
-  for (int k = 0; k < 4; ++k) {
-    to.a[k] = lanes.tile_a[k][lane];
-    to.b[k] = lanes.tile_b[k][lane];
-    to.c[k] = lanes.tile_c[k][lane];
-    to.error[k] = lanes.tile_error[k][lane];
-  }
-  to.nearest = from.nearest[i];
-  to.index = from.index[i];
-  to.x0 = static_cast<std::uint8_t>(from.x0[i] % kTilePx);
-  to.y0 = static_cast<std::uint8_t>(from.y0[i] % kTilePx);
-  to.x1 = static_cast<std::uint8_t>(from.x1[i] % kTilePx);
-  to.y1 = static_cast<std::uint8_t>(from.y1[i] % kTilePx);
-  to.tile = static_cast<std::uint32_t>(from.y0[i] / kTilePx * tile_columns + from.x0[i] / kTilePx);
-}
 
 HWY_INLINE void StoreBox(const SetupCandidates& from, size_t i, ScreenTriangle& to) {
   to.nearest = from.nearest[i];
@@ -252,25 +59,29 @@ inline void SetUpExactly(const SetupCandidates& from, const BinnedTriangles& to,
 inline void SetUpCandidates(const Projection& view, const SetupCandidates& from, const BinnedTriangles& to,
                             SetupCounts& made) {
   const int tile_columns = (view.width - 1) / kTilePx + 1;
-  const size_t width = hn::Lanes(SetupTag());
+  const SetupTag d;
+  const size_t width = hn::Lanes(d);
+  static_assert(kTilePx == 32);
+  const auto tile_begin = [&](const std::int32_t* side) HWY_ATTR {
+    const hn::Rebind<std::int32_t, SetupTag> di;
+    return hn::PromoteTo(d, hn::ShiftLeft<5>(hn::ShiftRight<5>(hn::LoadU(di, side))));
+  };
   SetupLanes lanes;
   for (size_t first = 0; first < from.count; first += width) {
-    const float* corner[9];
-    for (int k = 0; k < 9; ++k) corner[k] = from.corner[k] + first;
-    LoadCorners(view, corner, lanes);
-    std::uint32_t side_open = 0, flat = 0;
-    SetUpDepth(view, lanes, corner, side_open, flat);
-    for (int edge = 0; edge < 3; ++edge) SetUpEdge(view, edge, lanes);
-    const std::uint32_t uncovered = Uncovered(lanes, from, first) & ~side_open;
-    PlaceLanes(from, first, lanes);
+    std::uint32_t side_open = 0, uncovered = 0;
+    SetUpLanes(view, from, first, lanes, side_open, uncovered);
+    PlaceLanes(tile_begin(from.x0 + first), tile_begin(from.y0 + first), lanes);
     const std::uint32_t all = (1u << std::min(width, from.count - first)) - 1;
-    for (std::uint32_t bits = all & ~(flat | uncovered); bits != 0; bits &= bits - 1) {
+    for (std::uint32_t bits = all & ~uncovered; bits != 0; bits &= bits - 1) {
       const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const size_t i = first + lane;
       const bool open = (side_open >> lane & 1) != 0;
       const bool one_tile = ((from.x0[i] ^ from.x1[i]) | (from.y0[i] ^ from.y1[i])) < kTilePx;
       if (one_tile && !open) {
-        StorePlaced(lanes, lane, from, i, tile_columns, to.placed[made.placed++]);
+        TileTriangle& triangle = to.placed[made.placed++];
+        StorePlaced(lanes, lane, from, i, triangle);
+        triangle.tile =
+            static_cast<std::uint32_t>(from.y0[i] / kTilePx * tile_columns + from.x0[i] / kTilePx);
       } else {
         StoreWide(lanes, lane, from, i, open, to.wide[made.wide++]);
       }

@@ -8,15 +8,7 @@
 
 namespace plumb::detail {
 
-/// What a tile's triangles are tested against, uncounted.
-struct NoTileCounts {
-  void tile(bool) {}
-  void block_tests(std::size_t) {}
-  void block(bool) {}
-  void open_pixels(std::uint32_t) {}
-};
-
-/// And counted.
+/// What a tile's triangles are tested against, counted.
 struct TileCounts {
   RasterCounts& to;
 

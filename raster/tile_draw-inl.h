@@ -1,10 +1,7 @@
-// Draws triangles into a tile: blocks of 4 x 4 pixels rejected a vector at a time, then the pixels of those
-// that are left, 16 at once. It is the descent of a quadtree over the screen, from coarse to fine (Warnock
-// 1969, "A hidden surface algorithm for computer generated halftone pictures"), with several of its levels a
-// step: frame, tile of 32 x 32, block of 4 x 4, pixel. Included once per Highway target.
-//
-// Everything here is a filter in float: a pixel is taken, or passed over, only where that is
-// certain; the others are decided exactly. Hence the order of triangles does not matter.
+// Draws the triangles of a tile's list. It is the descent of a quadtree over the screen, from coarse to fine
+// (Warnock 1969, "A hidden surface algorithm for computer generated halftone pictures"), with several of its
+// levels a step: frame, tile of 32 x 32, then block of 4 x 4 and pixel (pixels/block_draw-inl.h). Included once
+// per Highway target.
 
 #if defined(PLUMB_RASTER_TILE_DRAW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLUMB_RASTER_TILE_DRAW_INL_H_
@@ -17,9 +14,10 @@
 #include <cstdint>
 #include <span>
 
-#include "base/mask_bits-inl.h"
 #include "hwy/cache_control.h"
 #include "hwy/highway.h"
+#include "pixels/block_draw-inl.h"
+#include "pixels/no_tile_counts.h"
 #include "pixels/tile_planes-inl.h"
 #include "pixels/tile_state-inl.h"
 #include "raster/kernels.h"
@@ -30,168 +28,22 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Decides pixels of a block that the triangle certainly covers, but at a depth too near to the winner's.
-inline void DecideDepths(const TileTask& task, TileState& state, int block, std::uint32_t triangle,
-                         std::uint32_t pixels) {
-  const int first = block * kBlockPixels;
-  LearnBlock(task, state, block, pixels);
-  HWY_ALIGN float t[kBlockPixels];
-  const std::uint32_t certain = BlockDepthsOf(task, block, triangle, t);
-  const std::uint32_t id = task.first_id + triangle;
-  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-    const int offset = first + i;
-    if ((certain >> i & 1) == 0) {
-      decide_pixel(task, state, offset, triangle);
-    } else if (t[i] < state.t[offset] || (t[i] == state.t[offset] && id < state.id[offset])) {
-      state.winner[offset] = state.known[offset] = triangle;
-      state.t[offset] = t[i];
-      state.id[offset] = id;
-    }
-  }
-  SetBounds(state, block, pixels);
-}
-
-// Decides pixels of a block that the triangle may or may not cover.
-inline void DecidePixels(const TileTask& task, TileState& state, int block, std::uint32_t triangle,
-                         std::uint32_t pixels) {
-  LearnBlock(task, state, block, pixels);
-  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-    decide_pixel(task, state, block * kBlockPixels + i, triangle);
-  }
-  SetBounds(state, block, pixels);
-}
-
-// The planes at a block's centre.
-HWY_INLINE void PlanesAt(const TileTriangle& triangle, int block, float centre[4]) {
-  const hn::CappedTag<float, 4> d;
-  for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
-    const auto row = hn::MulAdd(hn::Load(d, triangle.b + i), hn::Set(d, kCentres.block_y[block]),
-                                hn::Load(d, triangle.c + i));
-    hn::Store(hn::MulAdd(hn::Load(d, triangle.a + i), hn::Set(d, kCentres.block_x[block]), row), d,
-              centre + i);
-  }
-}
-
-// A plane at the pixels of a block from `lane` on.
-template <class D>
-HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const float centre[4], int plane,
-                                    size_t lane) {
-  const auto column = hn::Mul(hn::Set(d, triangle.a[plane]), hn::Load(d, kCentres.pixel_x + lane));
-  const auto row = hn::MulAdd(hn::Set(d, triangle.b[plane]), hn::Load(d, kCentres.pixel_y + lane),
-                              hn::Set(d, centre[plane]));
-  return hn::Add(column, row);
-}
-
-// Draws the triangle into a block; with `kFull` it certainly covers every pixel.
-template <bool kFull, class Counts>
-HWY_INLINE void DrawBlock(const TileTask& task, const TileTriangle& triangle, bool side_open, int block,
-                          TileState& state, Counts& counts) {
-  counts.block(kFull);
-  const hn::CappedTag<float, 16> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  HWY_ALIGN float centre[4];
-  PlanesAt(triangle, block, centre);
-  std::uint32_t won_bits = 0, depth_open = 0, edge_open = 0;
-  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
-    const auto inverse = PlaneAtPixels(d, triangle, centre, 3, lane);
-    const auto error = hn::Set(d, triangle.error[3]);
-    const auto low = hn::Sub(inverse, error);
-    const auto high = hn::Add(inverse, error);
-    auto closed = hn::Lt(high, hn::Load(d, state.inverse_low + offset));
-    auto covered = hn::Not(closed);
-    if constexpr (!kFull) {
-      for (int i = 0; i < 3; ++i) {
-        const auto edge = PlaneAtPixels(d, triangle, centre, i, lane);
-        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
-        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
-      }
-    }
-    const auto won = hn::And(covered, hn::Gt(low, hn::Load(d, state.inverse_high + offset)));
-    hn::BlendedStore(low, won, d, state.inverse_low + offset);
-    hn::BlendedStore(high, won, d, state.inverse_high + offset);
-    hn::BlendedStore(hn::Set(du, triangle.index), hn::RebindMask(du, won), du, state.winner + offset);
-    won_bits |= MaskBits(d, won) << lane;
-    depth_open |= MaskBits(d, hn::AndNot(won, covered)) << lane;
-    if constexpr (!kFull) edge_open |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
-  }
-  state.changed |= std::uint64_t{(won_bits | depth_open | edge_open) != 0} << block;
-  if (HWY_LIKELY((depth_open | edge_open) == 0)) return;
-  if (side_open) {
-    edge_open |= depth_open;
-    depth_open = 0;
-  }
-  counts.open_pixels(depth_open | edge_open);
-  if (depth_open != 0) DecideDepths(task, state, block, triangle.index, depth_open);
-  if (edge_open != 0) DecidePixels(task, state, block, triangle.index, edge_open);
-}
-
-// The blocks of a tile that hold pixels of the triangle's box, one bit each.
-HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
-  const std::uint64_t columns = (2u << triangle.x1 / kBlockPx) - (1u << triangle.x0 / kBlockPx);
-  const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - triangle.y1 / kBlockPx))) &
-                             (~std::uint64_t{0} << (8 * (triangle.y0 / kBlockPx)));
-  return columns * 0x0101010101010101u & rows;
-}
-
-// Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
 template <class Counts>
-HWY_INLINE void DrawBlocks(const TileTask& task, const TileTriangle& triangle, bool side_open,
-                           TileState& state, Counts& counts) {
-  const hn::CappedTag<float, 16> d;
-  const std::uint64_t box = BoxBlocks(triangle);
-  const size_t lanes = hn::Lanes(d);
-  const size_t begin = triangle.y0 / kBlockPx * size_t{kTileBlocks} / lanes * lanes;
-  const size_t end = (triangle.y1 / kBlockPx + 1) * size_t{kTileBlocks};
-  HWY_ALIGN float grow[4];
-  Grow(triangle, 1.5f, grow);
-  for (size_t first = begin; first < end; first += lanes) {
-    auto open = hn::FirstN(d, 0), full = hn::FirstN(d, 0);
-    TestBlocks(d, triangle, grow, first, state.block_low, open, full);
-    counts.block_tests(lanes);
-    const std::uint32_t full_bits = MaskBits(d, full);
-    for (std::uint32_t bits = MaskBits(d, open) & static_cast<std::uint32_t>(box >> first); bits != 0;
-         bits &= bits - 1) {
-      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      const int block = static_cast<int>(first + i);
-      if ((full_bits >> i & 1) != 0) {
-        DrawBlock<true>(task, triangle, side_open, block, state, counts);
-      } else {
-        DrawBlock<false>(task, triangle, side_open, block, state, counts);
-      }
-    }
-  }
-}
-
-// Draws a triangle whose box has few blocks.
-template <class Counts>
-HWY_INLINE void DrawSmall(const TileTask& task, const TileTriangle& triangle, TileState& state,
-                          Counts& counts) {
-  const int x1 = triangle.x1 / kBlockPx, y1 = triangle.y1 / kBlockPx;
-  for (int y = triangle.y0 / kBlockPx; y <= y1; ++y) {
-    for (int x = triangle.x0 / kBlockPx; x <= x1; ++x)
-      DrawBlock<false>(task, triangle, false, y * kTileBlocks + x, state, counts);
-  }
-}
-
-template <class Counts>
-HWY_INLINE void DrawWide(const TileTask& task, const ScreenTriangle& triangle, TileState& state,
-                         Counts& counts) {
-  if (triangle.x0 >= task.x + kTilePx || triangle.x1 < task.x || triangle.y0 >= task.y + kTilePx ||
-      triangle.y1 < task.y)
+HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const ScreenTriangle& triangle,
+                         TileState& state, Counts& counts) {
+  if (triangle.x0 >= view.x + kTilePx || triangle.x1 < view.x || triangle.y0 >= view.y + kTilePx ||
+      triangle.y1 < view.y)
     return;
   TileTriangle placed;
-  PlaceTriangle(triangle, task.x, task.y, placed);
-  if (!OutsideTile(placed)) DrawBlocks(task, placed, triangle.side_open, state, counts);
+  PlaceTriangle(triangle, view.x, view.y, placed);
+  if (!OutsideTile(placed)) DrawBlocks(view, mesh, placed, triangle.side_open, state, counts);
   if (HWY_LIKELY(!triangle.side_open)) return;
   TurnEdges(placed);
-  DrawBlocks(task, placed, true, state, counts);
+  DrawBlocks(view, mesh, placed, true, state, counts);
 }
 
 template <class Counts>
-HWY_INLINE void DrawEntries(const TileTask& task, const BinnedTriangles& triangles,
+HWY_INLINE void DrawEntries(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
                             std::span<const BinEntry> entries, Frame& frame, Counts& counts) {
   constexpr size_t kAhead = 8;
   const auto prefetch = [&](const BinEntry& entry) HWY_ATTR {
@@ -202,7 +54,7 @@ HWY_INLINE void DrawEntries(const TileTask& task, const BinnedTriangles& triangl
   };
   for (size_t i = 0; i < std::min(kAhead, entries.size()); ++i) prefetch(entries[i]);
   TileState state;
-  LoadTile(task, frame, state);
+  LoadTile(view, frame, state);
   for (size_t i = 0; i < entries.size(); ++i) {
     if (i + kAhead < entries.size()) prefetch(entries[i + kAhead]);
     const BinEntry entry = entries[i];
@@ -211,31 +63,32 @@ HWY_INLINE void DrawEntries(const TileTask& task, const BinnedTriangles& triangl
     counts.tile(hidden);
     if (hidden) continue;
     if (!entry.placed()) {
-      DrawWide(task, triangles.wide[entry.index()], state, counts);
+      DrawWide(view, mesh, triangles.wide[entry.index()], state, counts);
       continue;
     }
     const TileTriangle& triangle = triangles.placed[entry.index()];
     if (triangle.x1 / kBlockPx - triangle.x0 / kBlockPx < 2 &&
         triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
-      DrawSmall(task, triangle, state, counts);
+      DrawSmall(view, mesh, triangle, state, counts);
     } else {
-      DrawBlocks(task, triangle, false, state, counts);
+      DrawBlocks(view, mesh, triangle, false, state, counts);
     }
   }
-  StoreTile(task, state, frame);
+  StoreTile(view, mesh, state, frame);
 }
 
-inline void DrawTile(const TileTask& task, const BinnedTriangles& triangles,
+inline void DrawTile(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
                      std::span<const BinEntry> entries, Frame& frame) {
   NoTileCounts counts;
-  DrawEntries(task, triangles, entries, frame, counts);
+  DrawEntries(view, mesh, triangles, entries, frame, counts);
 }
 
 // The same, counted: out of line, so that it costs the other nothing.
-HWY_NOINLINE inline void CountTile(const TileTask& task, const BinnedTriangles& triangles,
+HWY_NOINLINE inline void CountTile(const TileView& view, const MeshTriangles& mesh,
+                                   const BinnedTriangles& triangles,
                                    std::span<const BinEntry> entries, Frame& frame, RasterCounts& counts) {
   TileCounts counter{counts};
-  DrawEntries(task, triangles, entries, frame, counter);
+  DrawEntries(view, mesh, triangles, entries, frame, counter);
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

@@ -9,7 +9,9 @@
 #include "plumb/brute_force.h"
 #include "plumb/bvh.h"
 #include "plumb/cast.h"
+#include "plumb/error.h"
 #include "plumb/frame.h"
+#include "plumb/simd.h"
 #include "support/hard_views.h"
 #include "support/oracle_adapter.h"
 
@@ -75,10 +77,49 @@ TEST_SUITE("agree: frames") {
         BuildOptions build;
         build.width = width;
         build.threads = options.threads;
+        options.method = CastMethod::Rays;
         Frame cast_frame = dirty_frame(view.camera);
         cast(Bvh(view.mesh, build), view.camera, cast_frame, options);
         CHECK(hard::difference(cast_frame, view.expected) == "");
       }
     }
+  }
+
+  TEST_CASE("frames cast by tiles are the oracle's, on every instruction set and one to four threads") {
+    const oneapi::tbb::global_control allow(oneapi::tbb::global_control::max_allowed_parallelism, 4);
+    CastOptions options;
+    options.method = CastMethod::Tiles;
+    for (const hard::View& view : hard::views()) {
+      CAPTURE(view.name);
+      for (const int width : {4, 8}) {
+        CAPTURE(width);
+        BuildOptions build;
+        build.width = width;
+        build.threads = 1;
+        const Bvh bvh(view.mesh, build);
+        for (const Simd simd : simd_targets()) {
+          CAPTURE(simd_name(simd));
+          options.simd = simd;
+          options.threads = options.threads % 4 + 1;
+          Frame frame = dirty_frame(view.camera);
+          cast(bvh, view.camera, frame, options);
+          CHECK(hard::difference(frame, view.expected) == "");
+        }
+      }
+    }
+  }
+
+  TEST_CASE("tiles are an error where a structure has none, and otherwise the default") {
+    const hard::View& view = hard::views().front();
+    const CastOptions tiles{.method = CastMethod::Tiles};
+    Frame frame = dirty_frame(view.camera);
+    const Frame before = frame;
+    CHECK_THROWS_AS(cast(BruteForce(view.mesh), view.camera, frame, tiles), Error);
+    CHECK_THROWS_AS(cast(Bvh(view.mesh, {.width = 2}), view.camera, frame, tiles), Error);
+    for (const Arithmetic arithmetic : {Arithmetic::Fast, Arithmetic::Watertight})
+      CHECK_THROWS_AS(cast(Bvh(view.mesh, {.arithmetic = arithmetic}), view.camera, frame, tiles), Error);
+    CHECK(hard::difference(frame, before) == "");
+    cast(Bvh(view.mesh), view.camera, frame);
+    CHECK(hard::difference(frame, view.expected) == "");
   }
 }

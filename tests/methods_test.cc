@@ -19,13 +19,15 @@ using namespace plumb;
 
 namespace {
 
-Frame cast_frame(const BuiltinScene& scene, const Camera& camera, int width, Simd simd, int threads) {
+Frame cast_frame(const BuiltinScene& scene, const Camera& camera, int width, Simd simd, int threads,
+                 CastMethod method = CastMethod::Rays) {
   BuildOptions build;
   build.width = width;
   build.simd = simd;
   build.threads = threads;
   CastOptions options;
   options.threads = threads;
+  options.method = method;
   Frame frame(camera.width, camera.height);
   cast(Bvh(scene.mesh, build), camera, frame, options);
   return frame;
@@ -69,7 +71,10 @@ TEST_SUITE("methods") {
       for (const Simd simd : simd_targets()) {
         CAPTURE(simd_name(simd));
         CAPTURE(threads);
-        for (const int width : {4, 8}) check_equal(expected, cast_frame(scene, camera, width, simd, threads));
+        for (const int width : {4, 8}) {
+          check_equal(expected, cast_frame(scene, camera, width, simd, threads));
+          check_equal(expected, cast_frame(scene, camera, width, simd, threads, CastMethod::Tiles));
+        }
         for (const Structure& structure : structures)
           check_equal(expected, cast_frame(structure.with_simd(simd), camera, threads));
         check_equal(expected, raster_frame(scene, camera, simd, threads));

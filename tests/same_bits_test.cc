@@ -112,9 +112,10 @@ std::uint64_t hash_of_inexact(const Entry& entry, Arithmetic arithmetic, Simd si
   return hash_of_rays(entry, make, asking);
 }
 
-Frame cast_frame(const Part& part, const Camera& camera, const Method& method, int threads = 1) {
+Frame cast_frame(const Part& part, const Camera& camera, const Method& method, int threads = 1,
+                 CastMethod way = CastMethod::Rays) {
   Frame frame(camera.width, camera.height);
-  cast(tree(part, method, threads), camera, frame, {.threads = threads});
+  cast(tree(part, method, threads), camera, frame, {.threads = threads, .method = way});
   return frame;
 }
 
@@ -250,12 +251,19 @@ TEST_SUITE("same bits") {
     });
   }
 
-  TEST_CASE("frames: by trees of every width and the rasterizer, on every instruction set") {
+  TEST_CASE(
+      "frames: by rays and tiles through trees of every width and by the rasterizer, on every instruction "
+      "set") {
     each_entry([](const Entry& entry, std::size_t) {
       for (const Method& method : trees()) {
         check(entry, method.name(), "frames", &Row::frames,
               hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
                 return cast_frame(part, camera, method);
+              }));
+        if (method.width == 2) continue;
+        check(entry, "tiles of " + method.name(), "frames", &Row::frames,
+              hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
+                return cast_frame(part, camera, method, 1, CastMethod::Tiles);
               }));
       }
       for (const Simd simd : simd_targets()) {
@@ -314,7 +322,7 @@ TEST_SUITE("same bits") {
         if (turn % 3 != 0) continue;
         check(entry, method.name() + with, "frames", &Row::frames,
               hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
-                return cast_frame(part, camera, method, threads);
+                return cast_frame(part, camera, method, threads, CastMethod::Auto);
               }));
         check(entry, "raster " + std::string(simd_name(simd)) + with, "frames", &Row::frames,
               hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
@@ -335,7 +343,7 @@ TEST_SUITE("same bits") {
         hard::under_mode(mode.bits, [&] {
           rays = hash_of_rays(entry, [&](const Part& part) { return tree(part, method); });
           cast = hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
-            return cast_frame(part, camera, method);
+            return cast_frame(part, camera, method, 1, turn % 2 == 0 ? CastMethod::Rays : CastMethod::Auto);
           });
           drawn = hash_of_frames(entry, [&](const Part& part, const Camera& camera) {
             return raster_frame(part, camera, simd);

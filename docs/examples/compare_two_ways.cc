@@ -15,7 +15,7 @@ int main() {
   const plumb::Camera camera = scene.camera(kWidth, kHeight);
 
   plumb::Frame by_rays(kWidth, kHeight);
-  plumb::cast(plumb::Bvh(scene.mesh), camera, by_rays);
+  plumb::cast(plumb::Bvh(scene.mesh), camera, by_rays, {.method = plumb::CastMethod::Rays});
 
   plumb::Frame by_triangles(kWidth, kHeight);
   plumb::rasterize(scene.mesh, camera, by_triangles);

@@ -84,12 +84,12 @@ HWY_INLINE void UpdateLows(TileState& state) {
 // Calls copy(pixel of the frame, offset in the tile, pixels) for each run of up to four pixels that the tile
 // has in the frame.
 template <class Copy>
-HWY_INLINE void ForEachRun(const TileTask& task, const Copy& copy) {
-  const int columns = std::min(kTilePx, task.camera.width - task.x);
-  const int rows = std::min(kTilePx, task.camera.height - task.y);
+HWY_INLINE void ForEachRun(const TileView& view, const Copy& copy) {
+  const int columns = std::min(kTilePx, view.camera.width - view.x);
+  const int rows = std::min(kTilePx, view.camera.height - view.y);
   for (int y = 0; y < rows; ++y) {
-    const size_t row = static_cast<size_t>(task.y + y) * static_cast<size_t>(task.camera.width) +
-                       static_cast<size_t>(task.x);
+    const size_t row = static_cast<size_t>(view.y + y) * static_cast<size_t>(view.camera.width) +
+                       static_cast<size_t>(view.x);
     for (int x = 0; x < columns; x += kBlockPx)
       copy(row + static_cast<size_t>(x), tile_offset(x, y), std::min(kBlockPx, columns - x));
   }
@@ -104,13 +104,13 @@ HWY_INLINE void CopyRun(void* to, const void* from, int pixels) {
 }
 
 // Starts a tile from the frame's pixels.
-inline void LoadTile(const TileTask& task, const Frame& frame, TileState& state) {
-  const bool whole = task.x + kTilePx <= task.camera.width && task.y + kTilePx <= task.camera.height;
+inline void LoadTile(const TileView& view, const Frame& frame, TileState& state) {
+  const bool whole = view.x + kTilePx <= view.camera.width && view.y + kTilePx <= view.camera.height;
   if (!whole) {
     std::fill(std::begin(state.t), std::end(state.t), -kFloatInfinity);
     std::fill(std::begin(state.id), std::end(state.id), 0u);
   }
-  ForEachRun(task, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
+  ForEachRun(view, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
     CopyRun(state.t + offset, frame.depth.data() + pixel, pixels);
     CopyRun(state.id + offset, frame.id.data() + pixel, pixels);
   });
@@ -133,13 +133,44 @@ inline void LoadTile(const TileTask& task, const Frame& frame, TileState& state)
   UpdateLows(state);
 }
 
+// Starts a tile that sees nothing yet, of whose pixels the first `columns` and `rows` lie in the frame.
+inline void StartTile(int columns, int rows, TileState& state) {
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
+    hn::Store(hn::Set(d, -kFloatInfinity), d, state.inverse_low + offset);
+    hn::Store(hn::Set(d, TileState::kLeastInverse), d, state.inverse_high + offset);
+    hn::Store(hn::Set(d, kFloatInfinity), d, state.t + offset);
+    hn::Store(hn::Set(du, kNone), du, state.id + offset);
+    hn::Store(hn::Set(du, TileState::kEarlier), du, state.winner + offset);
+    hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
+  }
+  if (columns < kTilePx || rows < kTilePx) {
+    for (int offset = 0; offset < kTilePixels; ++offset) {
+      if (tile_x(offset) < columns && tile_y(offset) < rows) continue;
+      state.t[offset] = -kFloatInfinity;
+      state.inverse_low[offset] = state.inverse_high[offset] = kFloatInfinity;  // hidden from all
+    }
+  }
+  state.changed = ~std::uint64_t{0};
+  UpdateLows(state);
+}
+
+// What a tile is drawn from, `Triangles`, numbers its triangles from 0 to below TileState::kEarlier:
+//     corners(index)    their vertices, as a Triangle
+//     id(index)         their ids
+
+template <class Triangles>
+HWY_INLINE IndexedTriangle Indexed(const Triangles& triangles, std::uint32_t index) {
+  return {index, triangles.id(index), triangles.corners(index)};
+}
+
 // The corners of a block's triangles, each pixel its own.
 struct BlockCorners {
   alignas(64) float corner[9][kBlockPixels];
 
-  void set(int pixel, MeshView mesh, std::uint32_t triangle) {
-    const glm::uvec3& c = mesh.triangles[triangle];
-    const glm::vec3 vertex[3] = {mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]};
+  void set(int pixel, const Triangle& triangle) {
+    const glm::vec3 vertex[3] = {triangle.v0, triangle.v1, triangle.v2};
     for (int v = 0; v < 3; ++v) {
       corner[3 * v][pixel] = vertex[v].x;
       corner[3 * v + 1][pixel] = vertex[v].y;
@@ -151,13 +182,13 @@ struct BlockCorners {
 // The depths at a block's pixels, `corner(d, lane, k)` being the coordinate k of the triangles of the
 // vector of pixels from `lane` on; a bit where it is certain.
 template <class Corner>
-HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Corner& corner, float* t) {
+HWY_INLINE std::uint32_t BlockDepths(const TileView& view, int block, const Corner& corner, float* t) {
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
-  const Camera& camera = task.camera;
+  const Camera& camera = view.camera;
   // From the block's centre, 1.5 pixels in, and the pixel's half.
-  const auto base_x = hn::Set(d, task.x + tile_x(block * kBlockPixels) + 2.0);
-  const auto base_y = hn::Set(d, task.y + tile_y(block * kBlockPixels) + 2.0);
+  const auto base_x = hn::Set(d, view.x + tile_x(block * kBlockPixels) + 2.0);
+  const auto base_y = hn::Set(d, view.y + tile_y(block * kBlockPixels) + 2.0);
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto x = hn::Add(base_x, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_x + lane)));
@@ -177,23 +208,23 @@ HWY_INLINE std::uint32_t BlockDepths(const TileTask& task, int block, const Corn
 }
 
 // Those of one triangle.
-inline std::uint32_t BlockDepthsOf(const TileTask& task, int block, std::uint32_t triangle, float* t) {
-  const glm::uvec3& c = task.mesh.triangles[triangle];
-  const glm::vec3* const vertex[3] = {&task.mesh.positions[c.x], &task.mesh.positions[c.y],
-                                      &task.mesh.positions[c.z]};
+inline std::uint32_t BlockDepthsOf(const TileView& view, int block, const Triangle& triangle, float* t) {
+  const glm::vec3* const vertex[3] = {&triangle.v0, &triangle.v1, &triangle.v2};
   return BlockDepths(
-      task, block,
+      view, block,
       [&](auto d, size_t, int k) HWY_ATTR { return hn::Set(d, double{(*vertex[k / 3])[k % 3]}); }, t);
 }
 
 // Those of each pixel's own triangle, for pixels whose bit is set; `sample` is one of them.
-inline std::uint32_t BlockDepthsOfEach(const TileTask& task, int block, const std::uint32_t* triangle,
-                                       std::uint32_t pixels, std::uint32_t sample, float* t) {
+template <class Triangles>
+inline std::uint32_t BlockDepthsOfEach(const TileView& view, const Triangles& triangles, int block,
+                                       const std::uint32_t* triangle, std::uint32_t pixels,
+                                       std::uint32_t sample, float* t) {
   BlockCorners corners;
   for (int i = 0; i < kBlockPixels; ++i)
-    corners.set(i, task.mesh, (pixels >> i & 1) != 0 ? triangle[i] : sample);
+    corners.set(i, triangles.corners((pixels >> i & 1) != 0 ? triangle[i] : sample));
   return BlockDepths(
-      task, block,
+      view, block,
       [&](auto d, size_t lane, int k) HWY_ATTR {
         const hn::Rebind<float, decltype(d)> df;
         return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane));
@@ -202,7 +233,9 @@ inline std::uint32_t BlockDepthsOfEach(const TileTask& task, int block, const st
 }
 
 // Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
-inline void LearnBlock(const TileTask& task, TileState& state, int block, std::uint32_t pixels) {
+template <class Triangles>
+inline void LearnBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
+                       std::uint32_t pixels) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
   const hn::RebindToFloat<decltype(d)> df;
@@ -221,24 +254,31 @@ inline void LearnBlock(const TileTask& task, TileState& state, int block, std::u
     same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
   HWY_ALIGN float depth[kBlockPixels];
   const std::uint32_t certain =
-      unknown & ((unknown & ~same) == 0 ? BlockDepthsOf(task, block, sample, depth)
-                                        : BlockDepthsOfEach(task, block, winner, unknown, sample, depth));
+      unknown &
+      ((unknown & ~same) == 0 ? BlockDepthsOf(view, block, triangles.corners(sample), depth)
+                              : BlockDepthsOfEach(view, triangles, block, winner, unknown, sample, depth));
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto mask = MaskOfBits(d, certain >> lane);
     const auto triangle = hn::Load(d, winner + lane);
     hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
-    hn::BlendedStore(hn::Add(triangle, hn::Set(d, task.first_id)), mask, d, state.id + first + lane);
     hn::BlendedStore(triangle, mask, d, state.known + first + lane);
   }
-  for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1)
-    learn_pixel(task, state,
-                static_cast<int>(first) + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
+  for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    state.id[first + i] = triangles.id(winner[i]);
+  }
+  for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    learn_pixel(view, state, static_cast<int>(first + i), Indexed(triangles, winner[i]));
+  }
 }
 
 // Gives the frame what the tile won.
-inline void StoreTile(const TileTask& task, TileState& state, Frame& frame) {
-  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block) LearnBlock(task, state, block, 0xffffu);
-  ForEachRun(task, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
+template <class Triangles>
+inline void StoreTile(const TileView& view, const Triangles& triangles, TileState& state, Frame& frame) {
+  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block)
+    LearnBlock(view, triangles, state, block, 0xffffu);
+  ForEachRun(view, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
     CopyRun(frame.depth.data() + pixel, state.t + offset, pixels);
     CopyRun(frame.id.data() + pixel, state.id + offset, pixels);
   });

@@ -2,19 +2,17 @@
 
 #include <cstdint>
 
+#include "exact/intersect.h"
 #include "pixels/tile.h"
 #include "plumb/camera.h"
-#include "plumb/mesh.h"
 
 namespace plumb::detail {
 
-/// What a tile is drawn from.
-struct TileTask {
+/// A tile of a camera's frame.
+struct TileView {
   const Camera& camera;
   bool exact_only;  ///< directions may be zero or not finite: ask before each exact decision
-  MeshView mesh;
-  std::uint32_t first_id;
-  int x, y;  ///< of the tile's upper left pixel
+  int x, y;         ///< of the tile's upper left pixel
 };
 
 /// A tile while triangles are drawn into it, pixels ordered as pixels/tile.h says. Each pixel's nearest
@@ -31,7 +29,7 @@ struct TileState {
   /// every certain hit replaces it.
   alignas(64) float inverse_low[kTilePixels];
   alignas(64) float inverse_high[kTilePixels];
-  /// That triangle's index in the mesh, or kEarlier.
+  /// That triangle's index among those that the tile is drawn from, or kEarlier.
   alignas(64) std::uint32_t winner[kTilePixels];
   /// Whose exact answer (t, id) is; where that is not `winner`, the answer is still to be computed.
   alignas(64) std::uint32_t known[kTilePixels];
@@ -45,11 +43,17 @@ struct TileState {
   std::uint64_t changed;
 };
 
+/// A triangle as the exact arithmetic takes it.
+struct IndexedTriangle {
+  std::uint32_t index, id;
+  Triangle corners;
+};
+
 /// Computes (t, id) of the pixel's winner, which covers it for certain.
-void learn_pixel(const TileTask& task, TileState& state, int offset);
+void learn_pixel(const TileView& view, TileState& state, int offset, const IndexedTriangle& winner);
 
 /// Decides whether the triangle wins the pixel, whose winner must be known. The bounds of 1/t are left
 /// to the caller. True when it does.
-bool decide_pixel(const TileTask& task, TileState& state, int offset, std::uint32_t triangle);
+bool decide_pixel(const TileView& view, TileState& state, int offset, const IndexedTriangle& triangle);
 
 }  // namespace plumb::detail

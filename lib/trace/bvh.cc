@@ -13,6 +13,7 @@
 #include "build/reinsertion.h"
 #include "build/tree_statistics.h"
 #include "plumb/error.h"
+#include "tiles/tile_kernel.h"
 #include "trace/binary.h"
 #include "trace/query.h"
 #include "trace/structure_data.h"
@@ -54,6 +55,7 @@ BinaryTree build_binary(MeshView mesh, int width, const BuildOptions& options) {
 }
 
 using QueriesFor = detail::QueryTable (*)(Simd);
+using TilesFor = detail::TileCaster (*)(Simd);
 
 QueriesFor wide8_queries_for(Arithmetic arithmetic) {
   switch (arithmetic) {
@@ -68,12 +70,16 @@ QueriesFor wide8_queries_for(Arithmetic arithmetic) {
 
 template <int W>
 std::shared_ptr<detail::StructureData> make_wide(const BinaryTree& tree, MeshView mesh,
-                                                 const BuildOptions& options, QueriesFor queries_for) {
+                                                 const BuildOptions& options, QueriesFor queries_for,
+                                                 TilesFor tiles_for) {
   detail::WideTree<W> wide = detail::collapse<W>(tree, mesh, options.first_id, options.threads);
   const Statistics statistics = detail::tree_statistics(wide);
+  const std::size_t blocks = wide.blocks.size();
   auto data = detail::make_structure_data(std::move(wide), queries_for, detail::resolve_simd(options.simd));
   data->statistics = statistics;
   data->refit = {W, options.first_id};
+  // The tiles' triangles are numbered by 32 bits.
+  if (blocks < 0xffffffffu / W) data->tiles_for = tiles_for;
   return data;
 }
 
@@ -104,8 +110,10 @@ std::shared_ptr<detail::StructureData> make_data(BinaryTree tree, MeshView mesh,
                                                  const BuildOptions& options) {
   if (width == 2) return make_binary(std::move(tree), mesh, options);
   if (options.compact) return make_compact(tree, mesh, options);
-  if (width == 4) return make_wide<4>(tree, mesh, options, detail::wide4_queries);
-  return make_wide<8>(tree, mesh, options, wide8_queries_for(options.arithmetic));
+  if (width == 4) return make_wide<4>(tree, mesh, options, detail::wide4_queries, detail::wide4_tile_caster);
+  const bool exact = options.arithmetic == Arithmetic::Exact;
+  return make_wide<8>(tree, mesh, options, wide8_queries_for(options.arithmetic),
+                      exact ? detail::wide8_tile_caster : nullptr);
 }
 
 // Throws plumb::Error unless the enumerator, whose values go from 0 to `last`, is one.

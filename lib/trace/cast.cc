@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "base/fp_mode.h"
 #include "base/parallel.h"
 #include "frame/frame_check.h"
+#include "pixels/projection.h"
+#include "pixels/tile.h"
+#include "plumb/error.h"
 #include "scene/pixel_direction.h"
+#include "tiles/tile_kernel.h"
+#include "trace/structure_data.h"
 
 namespace plumb {
 namespace {
@@ -54,8 +60,7 @@ void cast_block(const Structure& structure, const Camera& camera, int x0, int y0
   });
 }
 
-void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
-  detail::check_frame(frame, camera);
+void cast_rays(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
   const auto columns = static_cast<std::size_t>((camera.width + kBlockSide - 1) / kBlockSide);
   const auto rows = static_cast<std::size_t>((camera.height + kBlockSide - 1) / kBlockSide);
   detail::Progress progress(options.progress, columns * rows);
@@ -67,6 +72,40 @@ void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, 
     progress.add(1);
   });
   progress.throw_if_cancelled();
+}
+
+// False, with nothing done, where tiles cannot be culled.
+bool cast_tiles(const detail::StructureData& data, const Camera& camera, Frame& frame,
+                const CastOptions& options) {
+  const glm::vec3& eye = camera.eye;
+  if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z))) return false;
+  const detail::TileCaster caster = data.tiles_for(data.simd);
+  const detail::Projection projection(camera);
+  const detail::FrameFrustum frustum(projection, caster.greatest(data.structure.get()));
+  if (!frustum.usable) return false;
+  const auto columns = static_cast<std::size_t>((camera.width - 1) / detail::kTilePx + 1);
+  const auto rows = static_cast<std::size_t>((camera.height - 1) / detail::kTilePx + 1);
+  detail::Progress progress(options.progress, columns * rows);
+  detail::parallel_for(columns * rows, options.threads, [&](std::size_t tile) {
+    if (progress.cancelled()) return;
+    const detail::TileView view{camera, projection.exact_only,
+                                static_cast<int>(tile % columns) * detail::kTilePx,
+                                static_cast<int>(tile / columns) * detail::kTilePx};
+    caster.cast(data.structure.get(), frustum, view, frame);
+    progress.add(1);
+  });
+  progress.throw_if_cancelled();
+  return true;
+}
+
+void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
+  detail::check_frame(frame, camera);
+  const detail::StructureData& data = structure.data();
+  if (options.method == CastMethod::Tiles && data.tiles_for == nullptr)
+    throw Error("plumb: CastMethod::Tiles takes a Bvh of width 4 or 8 with Arithmetic::Exact, not compact");
+  const bool tiles = options.method != CastMethod::Rays && data.tiles_for != nullptr;
+  if (tiles && detail::with_default_fp_mode([&] { return cast_tiles(data, camera, frame, options); })) return;
+  cast_rays(structure, camera, frame, options);
 }
 
 }  // namespace

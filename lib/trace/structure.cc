@@ -64,7 +64,8 @@ TestCounts Structure::count_tests(std::span<const Ray> rays) const {
 
 Structure Structure::with_simd(Simd simd) const {
   auto data = std::make_shared<detail::StructureData>(*data_);
-  data->queries = data->queries_for(detail::resolve_simd(simd));
+  data->simd = detail::resolve_simd(simd);
+  data->queries = data->queries_for(data->simd);
   return Structure(std::move(data));
 }
 

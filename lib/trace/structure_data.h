@@ -6,6 +6,7 @@
 
 #include "plumb/simd.h"
 #include "plumb/statistics.h"
+#include "tiles/tile_kernel.h"
 #include "trace/query.h"
 
 namespace plumb::detail {
@@ -23,6 +24,8 @@ struct StructureData {
   std::shared_ptr<const void> structure;  ///< what the queries take
   QueryTable (*queries_for)(Simd);        ///< for a resolved target; scalar code ignores it
   QueryTable queries;
+  TileCaster (*tiles_for)(Simd) = nullptr;  ///< for a resolved target; null where only rays are cast
+  Simd simd = Simd::Auto;                   ///< the resolved target of `queries`
   Statistics statistics;
   RefitData refit;
 };
@@ -35,6 +38,7 @@ std::shared_ptr<StructureData> make_structure_data(Made structure, QueryTable (*
   data->structure = std::make_shared<const Made>(std::move(structure));
   data->queries_for = queries_for;
   data->queries = queries_for(simd);
+  data->simd = simd;
   return data;
 }
 

@@ -1,7 +1,7 @@
-// Attacks the projection's bounds (raster/projection.h): a search for cameras and pixels whose ray points as
+// Attacks the projection's bounds (pixels/projection.h): a search for cameras and pixels whose ray points as
 // far from the pixel's centre as possible, and for points whose place on the screen is as far off.
 
-#include "raster/projection.h"
+#include "pixels/projection.h"
 
 #include <doctest/doctest.h>
 

@@ -27,6 +27,7 @@ class Adapted final : public Structure {
   void cast(const Camera& camera, Frame& frame) const override {
     CastOptions options;
     options.threads = 1;
+    options.method = CastMethod::Rays;
     plumb::cast(inner_, camera, frame, options);
   }
 
@@ -81,6 +82,23 @@ Subject spheres() {
           nullptr};
 }
 
+Subject tile_caster(int width, Simd simd) {
+  const std::string target(simd_name(simd));
+  return {"tile" + std::to_string(width) + " " + target,
+          "cast(Bvh(mesh, {.width = " + std::to_string(width) + ", .simd = parse_simd(\"" + target +
+              "\")}), camera, frame, {.method = CastMethod::Tiles})",
+          nullptr, [width, simd](const TriangleMesh& mesh, const Camera& camera, Frame& frame) {
+            BuildOptions build;
+            build.width = width;
+            build.threads = 1;
+            build.simd = simd;
+            CastOptions options;
+            options.threads = 1;
+            options.method = CastMethod::Tiles;
+            plumb::cast(Bvh(mesh, build), camera, frame, options);
+          }};
+}
+
 Subject rasterizer(Simd simd) {
   RasterOptions options;
   options.threads = 1;
@@ -110,6 +128,9 @@ std::vector<Subject> all_subjects() {
     subjects.push_back(cells<KdTree>("kdtree", "KdTree", simd));
     subjects.push_back(cells<UniformGrid>("grid", "UniformGrid", simd));
     subjects.push_back(cells<Octree>("octree", "Octree", simd));
+  }
+  for (const int width : {4, 8}) {
+    for (const Simd simd : simd_targets()) subjects.push_back(tile_caster(width, simd));
   }
   for (const Simd simd : simd_targets()) subjects.push_back(rasterizer(simd));
   return subjects;

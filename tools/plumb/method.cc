@@ -72,6 +72,7 @@ const std::vector<MethodInfo>& all_methods() {
       {Method::Octree, "octree", "rays through an adaptive octree", true, false},
       {Method::Spheres, "spheres", "rays through the binary tree with spheres for boxes; scalar", false,
        false},
+      {Method::Tile, "tile", "tiles of pixels through the tree of 8 children a node", true, true},
       {Method::Raster, "raster", "the rasterizer", true, true},
   };
   return kMethods;
@@ -174,6 +175,7 @@ RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threa
   result.build_seconds = build_watch.seconds();
   CastOptions options;
   options.threads = threads;
+  options.method = run.method == Method::Tile ? CastMethod::Tiles : CastMethod::Rays;
   options.progress = frame_progress;
   const Stopwatch watch;
   cast(structure, camera, result.frame, options);

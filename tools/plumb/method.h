@@ -15,7 +15,7 @@
 namespace plumb::tool {
 
 /// A way to make a frame.
-enum class Method { Brute, Bvh2, Bvh4, Bvh8, KdTree, Grid, Octree, Spheres, Raster };
+enum class Method { Brute, Bvh2, Bvh4, Bvh8, KdTree, Grid, Octree, Spheres, Tile, Raster };
 
 struct MethodInfo {
   Method method;
@@ -48,8 +48,8 @@ struct Run {
 /// once. Throws plumb::Error for a target that is none or that this machine cannot run.
 std::vector<Run> plan_runs(const std::vector<Method>& methods, std::string_view simd);
 
-/// What rays are cast through, by a method that casts some: plumb::Error for Method::Raster. `simd` must be
-/// usable; scalar methods ignore it.
+/// What rays or tiles are cast through, by a method that casts some: plumb::Error for Method::Raster. `simd`
+/// must be usable; scalar methods ignore it.
 Structure build_method(Method method, MeshView mesh, Simd simd, int threads,
                        const std::function<bool(double)>& progress);
 

@@ -9,6 +9,19 @@
 
 namespace plumb {
 
+/// Which way a frame is cast. The answer is the same bits.
+enum class CastMethod {
+  /// Tiles where the structure can, else rays.
+  Auto,
+  /// One ray after the other.
+  Rays,
+  /// The tree is walked once for a tile of pixels, and the triangles of its leaves are drawn: a wide Bvh's
+  /// (width 4 or 8) with Arithmetic::Exact. Where a camera's rounding leaves open which pixels may see a box,
+  /// the
+  /// frame is cast by rays all the same.
+  Tiles,
+};
+
 /// How a frame is cast.
 struct CastOptions {
   /// Threads; 0 takes all that the affinity mask allows, and more are never used.
@@ -16,6 +29,8 @@ struct CastOptions {
   /// Instruction set of the rays; must be Auto, which is the structure's own, or one of simd_targets().
   /// Structures in plain scalar code stay so.
   Simd simd = Simd::Auto;
+  /// Which way; plumb::Error where it is Tiles and the structure cannot.
+  CastMethod method = CastMethod::Auto;
   /// Called now and then with the share done, rising from 0 to 1, from whichever thread gets there but
   /// never from two at once. Returning false cancels: cast() throws Cancelled. What it throws itself
   /// comes out of cast() too. Either way some pixels may have been overwritten and others not.

@@ -51,6 +51,9 @@ class Structure {
   /// What the structure is like.
   Statistics statistics() const;
 
+  /// For the library's own use.
+  const detail::StructureData& data() const { return *data_; }
+
  protected:
   /// For those that make one.
   explicit Structure(std::shared_ptr<const detail::StructureData> data);

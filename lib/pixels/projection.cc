@@ -1,4 +1,4 @@
-#include "raster/projection.h"
+#include "pixels/projection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@ struct Vector3 {
   double x, y, z;
 };
 
-/// A camera as the rasterizer uses it. Notation: the real-valued direction of the point (x, y) of the
+/// A camera as tiles are drawn for it. Notation: the real-valued direction of the point (x, y) of the
 /// frame, with pixel centres at integers, is D(x, y) = c0 + x du + y dv; a pixel's ray is the float
 /// direction d next to it.
 ///

@@ -1,0 +1,180 @@
+// Draws triangles into a tile: blocks of 4 x 4 pixels rejected a vector at a time, then the pixels of those
+// that are left, 16 at once. Included once per Highway target.
+//
+// Everything here is a filter in float: a pixel is taken, or passed over, only where that is
+// certain; the others are decided exactly. Hence the order of triangles does not matter.
+
+#if defined(PLUMB_PIXELS_BLOCK_DRAW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_PIXELS_BLOCK_DRAW_INL_H_
+#undef PLUMB_PIXELS_BLOCK_DRAW_INL_H_
+#else
+#define PLUMB_PIXELS_BLOCK_DRAW_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/mask_bits-inl.h"
+#include "hwy/highway.h"
+#include "pixels/tile_planes-inl.h"
+#include "pixels/tile_state-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Decides pixels of a block that the triangle certainly covers, but at a depth too near to the winner's.
+template <class Triangles>
+inline void DecideDepths(const TileView& view, const Triangles& triangles, TileState& state, int block,
+                         std::uint32_t triangle, std::uint32_t pixels) {
+  const int first = block * kBlockPixels;
+  LearnBlock(view, triangles, state, block, pixels);
+  HWY_ALIGN float t[kBlockPixels];
+  const std::uint32_t certain = BlockDepthsOf(view, block, triangles.corners(triangle), t);
+  const std::uint32_t id = triangles.id(triangle);
+  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
+    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    const int offset = first + i;
+    if ((certain >> i & 1) == 0) {
+      decide_pixel(view, state, offset, Indexed(triangles, triangle));
+    } else if (t[i] < state.t[offset] || (t[i] == state.t[offset] && id < state.id[offset])) {
+      state.winner[offset] = state.known[offset] = triangle;
+      state.t[offset] = t[i];
+      state.id[offset] = id;
+    }
+  }
+  SetBounds(state, block, pixels);
+}
+
+// Decides pixels of a block that the triangle may or may not cover.
+template <class Triangles>
+inline void DecidePixels(const TileView& view, const Triangles& triangles, TileState& state, int block,
+                         std::uint32_t triangle, std::uint32_t pixels) {
+  LearnBlock(view, triangles, state, block, pixels);
+  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
+    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    decide_pixel(view, state, block * kBlockPixels + i, Indexed(triangles, triangle));
+  }
+  SetBounds(state, block, pixels);
+}
+
+// The planes at a block's centre.
+HWY_INLINE void PlanesAt(const TileTriangle& triangle, int block, float centre[4]) {
+  const hn::CappedTag<float, 4> d;
+  for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    const auto row = hn::MulAdd(hn::Load(d, triangle.b + i), hn::Set(d, kCentres.block_y[block]),
+                                hn::Load(d, triangle.c + i));
+    hn::Store(hn::MulAdd(hn::Load(d, triangle.a + i), hn::Set(d, kCentres.block_x[block]), row), d,
+              centre + i);
+  }
+}
+
+// A plane at the pixels of a block from `lane` on.
+template <class D>
+HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const float centre[4], int plane,
+                                    size_t lane) {
+  const auto column = hn::Mul(hn::Set(d, triangle.a[plane]), hn::Load(d, kCentres.pixel_x + lane));
+  const auto row = hn::MulAdd(hn::Set(d, triangle.b[plane]), hn::Load(d, kCentres.pixel_y + lane),
+                              hn::Set(d, centre[plane]));
+  return hn::Add(column, row);
+}
+
+// `Counts` is told what is tested: NoTileCounts (pixels/no_tile_counts.h) or raster/tile_counts.h.
+
+// Draws the triangle into a block; with `kFull` it certainly covers every pixel.
+template <bool kFull, class Triangles, class Counts>
+HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
+                          bool side_open, int block, TileState& state, Counts& counts) {
+  counts.block(kFull);
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  HWY_ALIGN float centre[4];
+  PlanesAt(triangle, block, centre);
+  std::uint32_t won_bits = 0, depth_open = 0, edge_open = 0;
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
+    const auto inverse = PlaneAtPixels(d, triangle, centre, 3, lane);
+    const auto error = hn::Set(d, triangle.error[3]);
+    const auto low = hn::Sub(inverse, error);
+    const auto high = hn::Add(inverse, error);
+    auto closed = hn::Lt(high, hn::Load(d, state.inverse_low + offset));
+    auto covered = hn::Not(closed);
+    if constexpr (!kFull) {
+      for (int i = 0; i < 3; ++i) {
+        const auto edge = PlaneAtPixels(d, triangle, centre, i, lane);
+        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
+        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
+      }
+    }
+    const auto won = hn::And(covered, hn::Gt(low, hn::Load(d, state.inverse_high + offset)));
+    hn::BlendedStore(low, won, d, state.inverse_low + offset);
+    hn::BlendedStore(high, won, d, state.inverse_high + offset);
+    hn::BlendedStore(hn::Set(du, triangle.index), hn::RebindMask(du, won), du, state.winner + offset);
+    won_bits |= MaskBits(d, won) << lane;
+    depth_open |= MaskBits(d, hn::AndNot(won, covered)) << lane;
+    if constexpr (!kFull) edge_open |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
+  }
+  state.changed |= std::uint64_t{(won_bits | depth_open | edge_open) != 0} << block;
+  if (HWY_LIKELY((depth_open | edge_open) == 0)) return;
+  if (side_open) {
+    edge_open |= depth_open;
+    depth_open = 0;
+  }
+  counts.open_pixels(depth_open | edge_open);
+  if (depth_open != 0) DecideDepths(view, triangles, state, block, triangle.index, depth_open);
+  if (edge_open != 0) DecidePixels(view, triangles, state, block, triangle.index, edge_open);
+}
+
+// The blocks of a tile that hold pixels of the triangle's box, one bit each.
+HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
+  const std::uint64_t columns = (2u << triangle.x1 / kBlockPx) - (1u << triangle.x0 / kBlockPx);
+  const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - triangle.y1 / kBlockPx))) &
+                             (~std::uint64_t{0} << (8 * (triangle.y0 / kBlockPx)));
+  return columns * 0x0101010101010101u & rows;
+}
+
+// Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
+template <class Triangles, class Counts>
+HWY_INLINE void DrawBlocks(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
+                           bool side_open, TileState& state, Counts& counts) {
+  const hn::CappedTag<float, 16> d;
+  const std::uint64_t box = BoxBlocks(triangle);
+  const size_t lanes = hn::Lanes(d);
+  const size_t begin = triangle.y0 / kBlockPx * size_t{kTileBlocks} / lanes * lanes;
+  const size_t end = (triangle.y1 / kBlockPx + 1) * size_t{kTileBlocks};
+  HWY_ALIGN float grow[4];
+  Grow(triangle, 1.5f, grow);
+  for (size_t first = begin; first < end; first += lanes) {
+    auto open = hn::FirstN(d, 0), full = hn::FirstN(d, 0);
+    TestBlocks(d, triangle, grow, first, state.block_low, open, full);
+    counts.block_tests(lanes);
+    const std::uint32_t full_bits = MaskBits(d, full);
+    for (std::uint32_t bits = MaskBits(d, open) & static_cast<std::uint32_t>(box >> first); bits != 0;
+         bits &= bits - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      const int block = static_cast<int>(first + i);
+      if ((full_bits >> i & 1) != 0) {
+        DrawBlock<true>(view, triangles, triangle, side_open, block, state, counts);
+      } else {
+        DrawBlock<false>(view, triangles, triangle, side_open, block, state, counts);
+      }
+    }
+  }
+}
+
+// Draws a triangle whose box has few blocks.
+template <class Triangles, class Counts>
+HWY_INLINE void DrawSmall(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
+                          TileState& state, Counts& counts) {
+  const int x1 = triangle.x1 / kBlockPx, y1 = triangle.y1 / kBlockPx;
+  for (int y = triangle.y0 / kBlockPx; y <= y1; ++y) {
+    for (int x = triangle.x0 / kBlockPx; x <= x1; ++x)
+      DrawBlock<false>(view, triangles, triangle, false, y * kTileBlocks + x, state, counts);
+  }
+}
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,226 @@
+// A wide tree walked once for a tile of pixels, front to back. Boxes are culled that the tile's pixels cannot
+// see or that lie behind all they see so far; the triangles of a leaf are set up and drawn as the
+// rasterizer's are (pixels/). Included once per Highway target.
+//
+// So the cost grows with what the tile sees, not with what is there. Everything here only leaves out what
+// certainly is not seen, hence the order of boxes and triangles does not matter to the answer.
+
+#if defined(PLUMB_TILES_TILE_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_TILES_TILE_WALK_INL_H_
+#undef PLUMB_TILES_TILE_WALK_INL_H_
+#else
+#define PLUMB_TILES_TILE_WALK_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "base/mask_bits-inl.h"
+#include "build/binary_tree.h"
+#include "hwy/highway.h"
+#include "pixels/block_draw-inl.h"
+#include "pixels/no_tile_counts.h"
+#include "pixels/screen_bounds-inl.h"
+#include "pixels/tile_state-inl.h"
+#include "pixels/triangle_setup-inl.h"
+#include "tiles/tile_frustum.h"
+#include "tiles/tile_kernel.h"
+#include "tiles/tree_triangles.h"
+#include "wide/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A plane at the corners of W boxes that `row` picks.
+template <class D, int W>
+HWY_INLINE hn::Vec<D> PlaneAtBoxes(D d, const BoxPlane& plane, const std::uint32_t row[3],
+                                   const WideNode<W>& node, size_t lane) {
+  auto value = hn::Set(d, plane.offset);
+  for (int axis = 0; axis < 3; ++axis)
+    value = hn::MulAdd(hn::Set(d, plane.normal[axis]), hn::Load(d, node.bounds[row[axis]] + lane), value);
+  return value;
+}
+
+// The children that the tile may see, one bit each, and the least depths of their boxes. `low` >= 0 bounds
+// the 1/t of all that the tile sees so far. An empty child's planes are -infinity or NaN: it is never met.
+template <int W>
+HWY_INLINE std::uint32_t MeetChildren(const WideNode<W>& node, const FrameFrustum& frame,
+                                      const TileFrustum& tile, float low, float* near) {
+  const hn::CappedTag<float, W> d;
+  std::uint32_t met = 0;
+  for (size_t lane = 0; lane < static_cast<size_t>(W); lane += hn::Lanes(d)) {
+    const auto inside = [&](int i) HWY_ATTR {
+      const auto value = PlaneAtBoxes<decltype(d), W>(d, tile.side[i], tile.side[i].greatest_row, node, lane);
+      return hn::Ge(value, hn::Zero(d));
+    };
+    const auto seen = hn::And(hn::And(inside(0), inside(1)), hn::And(inside(2), inside(3)));
+    const auto depth = PlaneAtBoxes<decltype(d), W>(d, frame.depth, frame.depth.least_row, node, lane);
+    const auto hidden = hn::Lt(hn::Set(d, frame.depth_scale), hn::Mul(depth, hn::Set(d, low)));
+    hn::Store(depth, d, near + lane);
+    met |= MaskBits(d, hn::AndNot(hidden, seen)) << lane;
+  }
+  return met;
+}
+
+struct TileWalkEntry {
+  float near;  // the least depth of its box
+  std::uint32_t child;
+  std::uint32_t count;  // triangles of a leaf; 0 for a node
+};
+
+template <int W>
+class TileWalk {
+ public:
+  TileWalk(const WideTree<W>& tree, const FrameFrustum& frustum, const TileView& view, Frame& frame)
+      : tree_(tree),
+        triangles_{tree.blocks.data()},
+        frustum_(frustum),
+        view_(view),
+        rect_{view.x, view.y, std::min(view.x + kTilePx, frame.width) - 1,
+              std::min(view.y + kTilePx, frame.height) - 1},
+        tile_(frustum, rect_.x0, rect_.y0, rect_.x1, rect_.y1) {
+    candidates_.count = 0;
+    StartTile(rect_.x1 - rect_.x0 + 1, rect_.y1 - rect_.y0 + 1, state_);
+    walk();
+    draw_candidates(candidates_.count);
+    StoreTile(view_, triangles_, state_, frame);
+  }
+
+ private:
+  void walk() {
+    // Every node visited leaves at most W - 1 siblings on the stack.
+    TileWalkEntry stack[(W - 1) * kMaxTreeDepth + 1];
+    TileWalkEntry* top = stack;
+    TileWalkEntry current{-std::numeric_limits<float>::infinity(), 0, 0};
+    for (;;) {
+      if (current.count != 0) {
+        leaf(current.child, current.count);
+      } else {
+        const WideNode<W>& node = tree_.nodes[current.child];
+        HWY_ALIGN float near[W];
+        std::uint32_t met = MeetChildren<W>(node, frustum_, tile_, low(), near);
+        TileWalkEntry* const base = top;
+        for (; met != 0; met &= met - 1) {
+          const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
+          const TileWalkEntry entry{near[i], node.child[i], node.count[i]};
+          TileWalkEntry* place = top++;
+          for (; place != base && place[-1].near < entry.near; --place) *place = place[-1];
+          *place = entry;
+        }
+      }
+      do {
+        if (top == stack) return;
+        current = *--top;
+      } while (frustum_.depth_scale < current.near * low());
+    }
+  }
+
+  // At most the 1/t of all that the tile sees, and at least 0.
+  HWY_INLINE float low() const { return std::max(state_.tile_low, 0.0f); }
+
+  HWY_INLINE void leaf(std::uint32_t block, std::uint32_t count) {
+    const size_t lanes = std::min(hn::Lanes(SetupTag()), static_cast<size_t>(W));
+    for (;; ++block) {
+      const std::uint32_t filled = count < static_cast<std::uint32_t>(W) ? (1u << count) - 1 : (1u << W) - 1;
+      for (size_t lane = 0; lane < static_cast<size_t>(W); lane += lanes) {
+        if (filled >> lane == 0) break;
+        add_candidates(block, lane, filled >> lane);
+      }
+      const size_t whole = candidates_.count / hn::Lanes(SetupTag()) * hn::Lanes(SetupTag());
+      if (whole != 0) draw_candidates(whole);
+      if (count <= static_cast<std::uint32_t>(W)) return;
+      count -= static_cast<std::uint32_t>(W);
+    }
+  }
+
+  // Of a block's lanes from `lane` on.
+  HWY_INLINE void add_candidates(std::uint32_t block, size_t lane, std::uint32_t filled) {
+    const SetupTag d;
+    const hn::Rebind<float, SetupTag> df;
+    const TriangleBlock<W>& from = tree_.blocks[block];
+    const float* corner[9];
+    alignas(64) float wide[9][8];
+    for (int k = 0; k < 9; ++k) {
+      const float* row = from.vertex[k / 3][k % 3] + lane;
+      corner[k] = row;
+      if (hn::Lanes(d) > static_cast<size_t>(W)) {  // narrower than a vector
+        std::copy_n(row, W, wide[k]);
+        std::fill(wide[k] + W, wide[k] + 8, std::numeric_limits<float>::quiet_NaN());
+        corner[k] = wide[k];
+      }
+    }
+    ScreenBoxes boxes;
+    std::uint32_t seen = filled & BoundOnScreen(frustum_.view, rect_, corner, boxes);
+    const auto low = hn::Set(df, state_.tile_low);
+    seen &= ~MaskBits(df, hn::Lt(hn::Load(df, boxes.nearest), low));
+    AddCandidates(corner, boxes, seen, static_cast<size_t>(block) * W + lane, candidates_);
+  }
+
+  // Draws the first candidates, as many as wanted, a vector at a time.
+  void draw_candidates(size_t count) {
+    const SetupTag d;
+    for (size_t first = 0; first < count; first += hn::Lanes(d))
+      draw_vector(first, std::min(hn::Lanes(d), count - first));
+    DropCandidates(count, candidates_);
+    UpdateLows(state_);
+  }
+
+  HWY_INLINE void draw_vector(size_t first, size_t count) {
+    const SetupTag d;
+    SetupLanes lanes;
+    std::uint32_t side_open = 0, uncovered = 0;
+    SetUpLanes(frustum_.view, candidates_, first, lanes, side_open, uncovered);
+    PlaceLanes(hn::Set(d, view_.x), hn::Set(d, view_.y), lanes);
+    const std::uint32_t drawn = ((1u << count) - 1) & ~uncovered;
+    // All are stored before any is drawn: what has just been stored by parts is slow to load as a whole.
+    TileTriangle placed[8];
+    for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      StorePlaced(lanes, i, candidates_, first + i, placed[i]);
+    }
+    for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      draw(placed[i], (side_open >> i & 1) != 0);
+    }
+  }
+
+  HWY_INLINE void draw(TileTriangle& triangle, bool side_open) {
+    if (HWY_UNLIKELY(side_open)) {
+      DrawBlocks(view_, triangles_, triangle, true, state_, counts_);
+      TurnEdges(triangle);
+      DrawBlocks(view_, triangles_, triangle, true, state_, counts_);
+    } else if (triangle.x1 / kBlockPx - triangle.x0 / kBlockPx < 2 &&
+               triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
+      DrawSmall(view_, triangles_, triangle, state_, counts_);
+    } else {
+      DrawBlocks(view_, triangles_, triangle, false, state_, counts_);
+    }
+  }
+
+  const WideTree<W>& tree_;
+  TreeTriangles<W> triangles_;
+  const FrameFrustum& frustum_;
+  const TileView& view_;
+  PixelRect rect_;
+  TileFrustum tile_;
+  SetupCandidates candidates_;
+  TileState state_;
+  [[no_unique_address]] NoTileCounts counts_;
+};
+
+template <int W>
+TileCaster MakeTileCaster() {
+  return {[](const void* structure) { return static_cast<const WideTree<W>*>(structure)->greatest; },
+          [](const void* structure, const FrameFrustum& frustum, const TileView& view, Frame& frame) {
+            TileWalk<W>(*static_cast<const WideTree<W>*>(structure), frustum, view, frame);
+          }};
+}
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
