@@ -40,6 +40,36 @@ BoxPlane make_plane(const FrameFrustum& frame, const Vector3& N, double error, d
   return plane;
 }
 
+struct Interval {
+  double lo, hi;
+};
+
+// Of one component of the directions of a rectangle's pixels: it is affine but for `offset`, which has room for
+// the roundings here (pixels/projection.h: theirs are 2^-49 of what 2^-24 1e-4 is left of).
+Interval extremes(double c0, double du, double dv, double offset, int x0, int y0, int x1, int y1) {
+  const auto [x_lo, x_hi] = std::minmax({x0 * du, x1 * du});
+  const auto [y_lo, y_hi] = std::minmax({y0 * dv, y1 * dv});
+  return {(c0 + x_lo) + y_lo - offset, (c0 + x_hi) + y_hi + offset};
+}
+
+TileSlab make_slab(const Interval& direction, float eye, std::uint32_t axis) {
+  // Above this no scale overflows.
+  constexpr double kLeast = 0x1p-100;
+  const bool up = direction.lo > 0.0;
+  const double sign = up ? 1.0 : -1.0;
+  const double least = up ? direction.lo : -direction.hi;
+  const double greatest = up ? direction.hi : -direction.lo;
+  TileSlab slab{eye, 0.0f, 0.0f, std::numeric_limits<float>::infinity(), 2 * axis + (up ? 0u : 1u),
+                2 * axis + (up ? 1u : 0u)};
+  if (!(least > 0.0)) return slab;  // of either sign
+  if (greatest > kLeast) slab.near_scale = round_to_float(sign / greatest * (1.0 - 0x1p-21));
+  if (least > kLeast) {
+    slab.far_scale = round_to_float(sign / least * (1.0 + 0x1p-21));
+    slab.far_room = kSlabRoom;
+  }
+  return slab;
+}
+
 }  // namespace
 
 FrameFrustum::FrameFrustum(const Projection& view_in, float greatest)
@@ -48,9 +78,9 @@ FrameFrustum::FrameFrustum(const Projection& view_in, float greatest)
             std::max({std::fabs(view.eye.x), std::fabs(view.eye.y), std::fabs(view.eye.z)})),
       usable(view.slack_px < std::numeric_limits<double>::infinity() && reach < 0x1p60),
       depth(make_plane(*this, view.row_z, view.row_error_z, -1.0)),
-      // The greatest row_z.d of a ray over row_z's own size. 2^-20 is 16 u: 2 u for this, 2 u for the product
-      // with z, the rest as in pixels/screen_bounds-inl.h. Where it is small that product might underflow.
-      depth_scale(round_to_float(std::max(view.ray_depth / norm1(view.row_z) * (1.0 + 0x1p-20), 0x1p-90))) {}
+      // The least of 1 / row_z.d over the rays, with row_z's own size for z's. 2^-20 is 16 u: 1 u for this and
+      // the product each, the rest to spare. Where z is tiny the product might underflow: then to below 2^-90.
+      depth_scale(round_to_float(norm1(view.row_z) / view.ray_depth * (1.0 - 0x1p-20))) {}
 
 TileFrustum::TileFrustum(const FrameFrustum& frame, int x0, int y0, int x1, int y1) {
   const Projection& view = frame.view;
@@ -66,6 +96,12 @@ TileFrustum::TileFrustum(const FrameFrustum& frame, int x0, int y0, int x1, int 
   side[1] = plane(view.row_x, view.row_error_x, x1 + view.slack_px, false);
   side[2] = plane(view.row_y, view.row_error_y, y0 - view.slack_px, true);
   side[3] = plane(view.row_y, view.row_error_y, y1 + view.slack_px, false);
+  const auto slab_of = [&](double c0, double du, double dv, double offset, float eye, std::uint32_t axis) {
+    return make_slab(extremes(c0, du, dv, offset, x0, y0, x1, y1), eye, axis);
+  };
+  slab[0] = slab_of(view.c0.x, view.du.x, view.dv.x, view.offset.x, static_cast<float>(view.eye.x), 0);
+  slab[1] = slab_of(view.c0.y, view.du.y, view.dv.y, view.offset.y, static_cast<float>(view.eye.y), 1);
+  slab[2] = slab_of(view.c0.z, view.du.z, view.dv.z, view.offset.z, static_cast<float>(view.eye.z), 2);
 }
 
 }  // namespace plumb::detail

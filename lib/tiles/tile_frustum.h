@@ -34,18 +34,38 @@ struct FrameFrustum {
   double reach;  ///< R
   /// The bounds hold: the screen bounds what is seen where, and nothing overflows.
   bool usable;
-  /// Its least value z > 0 in a box bounds the 1/t of what is seen there: 1/t <= depth_scale / z, with room
-  /// for the rounding of t and of z times a bound of 1/t.
+  /// Its least value z in a box bounds the t of what is seen there: t >= depth_scale z, where z > 0.
   BoxPlane depth;
   float depth_scale;
 };
 
-/// The side planes of a rectangle of pixels: a box that is below 0 all over in one of them is not seen in it.
+/// Between which t the rays of a tile are between two planes across an axis. Where all their directions have
+/// one sign there, s, and sizes from d0 to d1, a ray that is in a box at t > 0 has
+///     s (near - eye) / d1 <= t <= s (far - eye) / d0
+/// for the planes near and far that they meet first and last. Each is the difference, rounded once, times a
+/// scale that is 2^-21 (8 u) off to the safe side; where that underflows it is off by less than kSlabRoom.
+struct TileSlab {
+  float eye;
+  float near_scale;  ///< s / d1 and below, or 0
+  float far_scale;   ///< s / d0 and above, or 0
+  float far_room;    ///< kSlabRoom, or infinity where nothing bounds t from above
+  std::uint32_t near_row, far_row;
+};
+
+inline constexpr float kSlabRoom = 0x1p-120f;
+
+/// A box is not met where `near` of it is this much above `far`, or hidden where near times a bound of 1/t is
+/// this much above 1: 2 u for the product, the rest as in pixels/screen_bounds-inl.h.
+inline constexpr float kTileRoom = 1.0f + 0x1p-20f;
+
+/// What a rectangle of pixels may see.
 struct TileFrustum {
   /// Both ends of the rectangle included.
   TileFrustum(const FrameFrustum& frame, int x0, int y0, int x1, int y1);
 
+  /// A box that is below 0 all over in one of these is not seen.
   BoxPlane side[4];
+  TileSlab slab[3];
 };
 
 }  // namespace plumb::detail

@@ -45,8 +45,9 @@ HWY_INLINE hn::Vec<D> PlaneAtBoxes(D d, const BoxPlane& plane, const std::uint32
   return value;
 }
 
-// The children that the tile may see, one bit each, and the least depths of their boxes. `low` >= 0 bounds
-// the 1/t of all that the tile sees so far. An empty child's planes are -infinity or NaN: it is never met.
+// The children that the tile may see, one bit each, and the least t of anything seen in their boxes or less.
+// `low` >= 0 bounds the 1/t of all that the tile sees so far. An empty child's planes are -infinity or NaN: it is
+// never met.
 template <int W>
 HWY_INLINE std::uint32_t MeetChildren(const WideNode<W>& node, const FrameFrustum& frame,
                                       const TileFrustum& tile, float low, float* near) {
@@ -59,15 +60,26 @@ HWY_INLINE std::uint32_t MeetChildren(const WideNode<W>& node, const FrameFrustu
     };
     const auto seen = hn::And(hn::And(inside(0), inside(1)), hn::And(inside(2), inside(3)));
     const auto depth = PlaneAtBoxes<decltype(d), W>(d, frame.depth, frame.depth.least_row, node, lane);
-    const auto hidden = hn::Lt(hn::Set(d, frame.depth_scale), hn::Mul(depth, hn::Set(d, low)));
-    hn::Store(depth, d, near + lane);
-    met |= MaskBits(d, hn::AndNot(hidden, seen)) << lane;
+    auto first = hn::Mul(depth, hn::Set(d, frame.depth_scale));
+    auto last = hn::Set(d, kFloatInfinity);
+    for (const TileSlab& slab : tile.slab) {
+      const auto eye = hn::Set(d, slab.eye);
+      const auto to_near = hn::Sub(hn::Load(d, node.bounds[slab.near_row] + lane), eye);
+      const auto to_far = hn::Sub(hn::Load(d, node.bounds[slab.far_row] + lane), eye);
+      first = hn::Max(first, hn::Mul(to_near, hn::Set(d, slab.near_scale)));
+      last = hn::Min(last, hn::MulAdd(to_far, hn::Set(d, slab.far_scale), hn::Set(d, slab.far_room)));
+    }
+    const auto room = hn::Set(d, kTileRoom);
+    const auto missed = hn::Gt(first, hn::Mul(last, room));
+    const auto hidden = hn::Gt(hn::Mul(first, hn::Set(d, low)), room);
+    hn::Store(first, d, near + lane);
+    met |= MaskBits(d, hn::AndNot(hn::Or(missed, hidden), seen)) << lane;
   }
   return met;
 }
 
 struct TileWalkEntry {
-  float near;  // the least depth of its box
+  float near;  // the least t of what is in its box, or less
   std::uint32_t child;
   std::uint32_t count;  // triangles of a leaf; 0 for a node
 };
@@ -95,7 +107,7 @@ class TileWalk {
     // Every node visited leaves at most W - 1 siblings on the stack.
     TileWalkEntry stack[(W - 1) * kMaxTreeDepth + 1];
     TileWalkEntry* top = stack;
-    TileWalkEntry current{-std::numeric_limits<float>::infinity(), 0, 0};
+    TileWalkEntry current{0.0f, 0, 0};
     for (;;) {
       if (current.count != 0) {
         leaf(current.child, current.count);
@@ -115,7 +127,7 @@ class TileWalk {
       do {
         if (top == stack) return;
         current = *--top;
-      } while (frustum_.depth_scale < current.near * low());
+      } while (current.near * low() > kTileRoom);
     }
   }
 
