@@ -7,7 +7,9 @@
 #define PLUMB_BASE_MASK_BITS_INL_H_
 #endif
 
+#include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "hwy/highway.h"
 
@@ -21,6 +23,11 @@ template <class D>
 HWY_INLINE std::uint32_t MaskBits(D d, hn::Mask<D> mask) {
   std::uint8_t bytes[8] = {};  // Highway may store up to 8
   hn::StoreMaskBits(d, mask, bytes);
+  if constexpr (std::endian::native == std::endian::little) {
+    std::uint16_t word;  // in one step: compilers do not see through two
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  }
   return bytes[0] | (std::uint32_t{bytes[1]} << 8);
 }
 

@@ -30,53 +30,75 @@ namespace hn = hwy::HWY_NAMESPACE;
 // products; what underflows is less than 2^-1020, where the factors of a bound that is not 0 are at least
 // 2^-53 and three of 2^-149, and with a bound of 0 the values are exactly 0 and their quotient is not a
 // number.
-template <class D, class OfRay, class Corner, class V = hn::Vec<D>>
-HWY_INLINE void TriangleQuotients(D d, const OfRay& ray, const Corner& corner, V& quotient, V& slack) {
-  const V dx = ray(3), dy = ray(4), dz = ray(5);
+//
+// First what a triangle gives for all rays from a point, `eye(k)`: N, T, T's error (infinite where T says
+// nothing), and L^2 times what den's error has beside it.
+template <class D, class OfEye, class Corner, class V = hn::Vec<D>>
+HWY_INLINE void TrianglePlane(D d, const OfEye& eye, const Corner& corner, V& nx, V& ny, V& nz, V& t_num,
+                              V& t_error, V& den_factor) {
   const V v0x = corner(0), v0y = corner(1), v0z = corner(2);
-  const V ax = hn::Sub(v0x, ray(0));
-  const V ay = hn::Sub(v0y, ray(1));
-  const V az = hn::Sub(v0z, ray(2));
+  const V ax = hn::Sub(v0x, eye(0));
+  const V ay = hn::Sub(v0y, eye(1));
+  const V az = hn::Sub(v0z, eye(2));
   const V e1x = hn::Sub(corner(3), v0x), e1y = hn::Sub(corner(4), v0y), e1z = hn::Sub(corner(5), v0z);
   const V e2x = hn::Sub(corner(6), v0x), e2y = hn::Sub(corner(7), v0y), e2z = hn::Sub(corner(8), v0z);
-  const V nx = hn::MulSub(e1y, e2z, hn::Mul(e1z, e2y));
-  const V ny = hn::MulSub(e1z, e2x, hn::Mul(e1x, e2z));
-  const V nz = hn::MulSub(e1x, e2y, hn::Mul(e1y, e2x));
-  const V t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
-  const V den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
+  nx = hn::MulSub(e1y, e2z, hn::Mul(e1z, e2y));
+  ny = hn::MulSub(e1z, e2x, hn::Mul(e1x, e2z));
+  nz = hn::MulSub(e1x, e2y, hn::Mul(e1y, e2x));
+  t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
 
   const auto norm1 = [](V x, V y, V z)
                          HWY_ATTR { return hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)); };
   const V extent = hn::Max(norm1(e1x, e1y, e1z), norm1(e2x, e2y, e2z));
   const V extent2 = hn::Mul(extent, extent);
   const V reach = hn::Max(hn::Abs(ax), hn::Max(hn::Abs(ay), hn::Abs(az)));
-  const V t_error = hn::Mul(hn::Mul(reach, extent2), hn::Set(d, 8.2 * 0x1p-53));
-  const V den_error = hn::Mul(hn::Mul(norm1(dx, dy, dz), extent2), hn::Set(d, 7.2 * 0x1p-53));
+  const V error = hn::Mul(hn::Mul(reach, extent2), hn::Set(d, 8.2 * 0x1p-53));
+  t_error = hn::IfThenElse(hn::Lt(error, hn::Mul(hn::Abs(t_num), hn::Set(d, 0x1p-11))), error,
+                           hn::Set(d, std::numeric_limits<double>::infinity()));
+  den_factor = hn::Mul(extent2, hn::Set(d, 7.2 * 0x1p-53));
+}
 
+// Then the quotient for the ray of direction (dx, dy, dz).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PlaneQuotients(D d, V dx, V dy, V dz, V nx, V ny, V nz, V t_num, V t_error, V den_factor,
+                               V& quotient, V& slack) {
+  const V den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
+  const V size = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
+  const V den_error = hn::Mul(size, den_factor);
   const V inverse = hn::Div(hn::Set(d, 1.0), den);
   quotient = hn::Mul(t_num, inverse);
   const V error = hn::Mul(hn::MulAdd(hn::Abs(quotient), den_error, t_error), hn::Abs(inverse));
   const V finite = hn::MulAdd(error, hn::Set(d, 1.02), hn::Mul(hn::Abs(quotient), hn::Set(d, 5.0 * 0x1p-53)));
-  const V small = hn::Set(d, 0x1p-11);
-  const auto errors_small = hn::And(hn::Lt(t_error, hn::Mul(hn::Abs(t_num), small)),
-                                    hn::Lt(den_error, hn::Mul(hn::Abs(den), small)));
-  slack = hn::IfThenElse(errors_small, finite, hn::Set(d, std::numeric_limits<double>::infinity()));
+  const auto den_known = hn::Lt(den_error, hn::Mul(hn::Abs(den), hn::Set(d, 0x1p-11)));
+  slack = hn::IfThenElse(den_known, finite, hn::Set(d, std::numeric_limits<double>::infinity()));
+}
+
+template <class D, class OfRay, class Corner, class V = hn::Vec<D>>
+HWY_INLINE void TriangleQuotients(D d, const OfRay& ray, const Corner& corner, V& quotient, V& slack) {
+  V nx, ny, nz, t_num, t_error, den_factor;
+  TrianglePlane(d, ray, corner, nx, ny, nz, t_num, t_error, den_factor);
+  PlaneQuotients(d, ray(3), ray(4), ray(5), nx, ny, nz, t_num, t_error, den_factor, quotient, slack);
 }
 
 // RN32(t) of the same, where that is certain, finite and above 0. Rounding is monotonic: where both ends of
 // the interval round to the same float, so does everything between. NaN compares as not equal.
-template <class D, class OfRay, class Corner>
-HWY_INLINE void TriangleDepths(D d, const OfRay& ray, const Corner& corner, hn::Vec<hn::Rebind<float, D>>& t,
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void RoundQuotients(D d, V quotient, V slack, hn::Vec<hn::Rebind<float, D>>& t,
                                hn::Mask<hn::Rebind<float, D>>& certain) {
-  using V = hn::Vec<D>;
-  const hn::Rebind<float, D> df;
-  V quotient, slack;
-  TriangleQuotients(d, ray, corner, quotient, slack);
+  const hn::Rebind<float, decltype(d)> df;
   t = RoundToFloat(df, hn::Sub(quotient, slack));
   const auto other = RoundToFloat(df, hn::Add(quotient, slack));
   const auto in_range =
       hn::And(hn::Gt(t, hn::Zero(df)), hn::Lt(t, hn::Set(df, std::numeric_limits<float>::infinity())));
   certain = hn::And(hn::Eq(t, other), in_range);
+}
+
+template <class D, class OfRay, class Corner>
+HWY_INLINE void TriangleDepths(D d, const OfRay& ray, const Corner& corner, hn::Vec<hn::Rebind<float, D>>& t,
+                               hn::Mask<hn::Rebind<float, D>>& certain) {
+  hn::Vec<D> quotient, slack;
+  TriangleQuotients(d, ray, corner, quotient, slack);
+  RoundQuotients(d, quotient, slack, t, certain);
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

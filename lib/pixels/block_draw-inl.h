@@ -29,9 +29,11 @@ template <class Triangles>
 inline void DecideDepths(const TileView& view, const Triangles& triangles, TileState& state, int block,
                          std::uint32_t triangle, std::uint32_t pixels) {
   const int first = block * kBlockPixels;
-  LearnBlock(view, triangles, state, block, pixels);
+  KnownPlane plane;
+  LearnBlock(view, triangles, state, block, pixels, plane);
   HWY_ALIGN float t[kBlockPixels];
-  const std::uint32_t certain = BlockDepthsOf(view, block, triangles.corners(triangle), t);
+  plane.set(view.camera.eye, triangles.corners(triangle));
+  const std::uint32_t certain = BlockDepthsOf(state, block, plane, t);
   const std::uint32_t id = triangles.id(triangle);
   for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
@@ -51,7 +53,8 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
 template <class Triangles>
 inline void DecidePixels(const TileView& view, const Triangles& triangles, TileState& state, int block,
                          std::uint32_t triangle, std::uint32_t pixels) {
-  LearnBlock(view, triangles, state, block, pixels);
+  KnownPlane plane;
+  LearnBlock(view, triangles, state, block, pixels, plane);
   for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
     decide_pixel(view, state, block * kBlockPixels + i, Indexed(triangles, triangle));

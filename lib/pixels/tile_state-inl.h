@@ -103,8 +103,31 @@ HWY_INLINE void CopyRun(void* to, const void* from, int pixels) {
   }
 }
 
+// What the directions of a tile's pixels are made of.
+HWY_INLINE void StartDirections(const TileView& view, TileState& state) {
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> df;
+  const Camera& camera = view.camera;
+  for (int block = 0; block < kTileBlocks; ++block) {
+    // From the block's centre, 1.5 pixels in, and the pixel's half.
+    const auto base_x = hn::Set(d, view.x + block * kBlockPx + 2.0);
+    const auto base_y = hn::Set(d, view.y + block * kBlockPx + 2.0);
+    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+      const auto x = hn::Add(base_x, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_x + lane)));
+      const auto y = hn::Add(base_y, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_y + lane)));
+      const size_t to = static_cast<size_t>(block) * kBlockPixels + lane;
+      for (int axis = 0; axis < 3; ++axis) {
+        hn::Store(DirectionOfColumn(d, x, camera.corner[axis], camera.du[axis]), d,
+                  state.direction_x[axis] + to);
+        hn::Store(DirectionOfRow(d, y, camera.dv[axis]), d, state.direction_y[axis] + to);
+      }
+    }
+  }
+}
+
 // Starts a tile from the frame's pixels.
 inline void LoadTile(const TileView& view, const Frame& frame, TileState& state) {
+  StartDirections(view, state);
   const bool whole = view.x + kTilePx <= view.camera.width && view.y + kTilePx <= view.camera.height;
   if (!whole) {
     std::fill(std::begin(state.t), std::end(state.t), -kFloatInfinity);
@@ -133,8 +156,10 @@ inline void LoadTile(const TileView& view, const Frame& frame, TileState& state)
   UpdateLows(state);
 }
 
-// Starts a tile that sees nothing yet, of whose pixels the first `columns` and `rows` lie in the frame.
-inline void StartTile(int columns, int rows, TileState& state) {
+// Starts a tile that sees nothing yet.
+inline void StartTile(const TileView& view, TileState& state) {
+  StartDirections(view, state);
+  const int columns = view.camera.width - view.x, rows = view.camera.height - view.y;
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
@@ -179,105 +204,147 @@ struct BlockCorners {
   }
 };
 
-// The depths at a block's pixels, `corner(d, lane, k)` being the coordinate k of the triangles of the
-// vector of pixels from `lane` on; a bit where it is certain.
-template <class Corner>
-HWY_INLINE std::uint32_t BlockDepths(const TileView& view, int block, const Corner& corner, float* t) {
+// One component of the directions of a block's pixels from `lane` on.
+template <class D>
+HWY_INLINE hn::Vec<D> BlockDirections(D d, const TileState& state, int block, size_t lane, int axis) {
+  const auto column = hn::Load(d, state.direction_x[axis] + block % kTileBlocks * kBlockPixels + lane);
+  const auto row = hn::Load(d, state.direction_y[axis] + block / kTileBlocks * kBlockPixels + lane);
+  return Direction(d, column, row);
+}
+
+// What exact/depth-inl.h's TrianglePlane says of one triangle.
+struct KnownPlane {
+  std::uint32_t index = TileState::kEarlier;
+  double nx = 0, ny = 0, nz = 0, t_num = 0, t_error = 0, den_factor = 0;
+
+  HWY_INLINE void set(const glm::vec3& eye, const Triangle& corners) {
+    const hn::CappedTag<double, 1> d;
+    const glm::vec3* const vertex[3] = {&corners.v0, &corners.v1, &corners.v2};
+    hn::Vec<decltype(d)> x, y, z, t, te, df;
+    TrianglePlane(
+        d, [&](int k) HWY_ATTR { return hn::Set(d, double{eye[k]}); },
+        [&](int k) HWY_ATTR { return hn::Set(d, double{(*vertex[k / 3])[k % 3]}); }, x, y, z, t, te, df);
+    nx = hn::GetLane(x);
+    ny = hn::GetLane(y);
+    nz = hn::GetLane(z);
+    t_num = hn::GetLane(t);
+    t_error = hn::GetLane(te);
+    den_factor = hn::GetLane(df);
+  }
+};
+
+// The depths of one triangle at a block's pixels; a bit where it is certain.
+HWY_INLINE std::uint32_t BlockDepthsOf(const TileState& state, int block, const KnownPlane& plane, float* t) {
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
-  const Camera& camera = view.camera;
-  // From the block's centre, 1.5 pixels in, and the pixel's half.
-  const auto base_x = hn::Set(d, view.x + tile_x(block * kBlockPixels) + 2.0);
-  const auto base_y = hn::Set(d, view.y + tile_y(block * kBlockPixels) + 2.0);
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto x = hn::Add(base_x, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_x + lane)));
-    const auto y = hn::Add(base_y, hn::PromoteTo(d, hn::Load(df, kCentres.pixel_y + lane)));
-    const auto ray = [&](int k) HWY_ATTR {
-      return k < 3 ? hn::Set(d, double{camera.eye[k]})
-                   : DirectionComponent(d, x, y, camera.corner[k - 3], camera.du[k - 3], camera.dv[k - 3]);
-    };
+    const auto ray = [&](int axis) HWY_ATTR { return BlockDirections(d, state, block, lane, axis); };
+    auto quotient = hn::Zero(d), slack = quotient;
+    PlaneQuotients(d, ray(0), ray(1), ray(2), hn::Set(d, plane.nx), hn::Set(d, plane.ny),
+                   hn::Set(d, plane.nz), hn::Set(d, plane.t_num), hn::Set(d, plane.t_error),
+                   hn::Set(d, plane.den_factor), quotient, slack);
     auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
-    TriangleDepths(
-        d, ray, [&](int k) HWY_ATTR { return corner(d, lane, k); }, depth, certain);
+    RoundQuotients(d, quotient, slack, depth, certain);
     hn::Store(depth, df, t + lane);
     bits |= MaskBits(df, certain) << lane;
   }
   return bits;
 }
 
-// Those of one triangle.
-inline std::uint32_t BlockDepthsOf(const TileView& view, int block, const Triangle& triangle, float* t) {
-  const glm::vec3* const vertex[3] = {&triangle.v0, &triangle.v1, &triangle.v2};
-  return BlockDepths(
-      view, block,
-      [&](auto d, size_t, int k) HWY_ATTR { return hn::Set(d, double{(*vertex[k / 3])[k % 3]}); }, t);
-}
-
 // Those of each pixel's own triangle, for pixels whose bit is set; `sample` is one of them.
 template <class Triangles>
-inline std::uint32_t BlockDepthsOfEach(const TileView& view, const Triangles& triangles, int block,
-                                       const std::uint32_t* triangle, std::uint32_t pixels,
+inline std::uint32_t BlockDepthsOfEach(const TileView& view, const Triangles& triangles,
+                                       const TileState& state, int block, std::uint32_t pixels,
                                        std::uint32_t sample, float* t) {
+  const std::uint32_t* winner = state.winner + block * kBlockPixels;
   BlockCorners corners;
   for (int i = 0; i < kBlockPixels; ++i)
-    corners.set(i, triangles.corners((pixels >> i & 1) != 0 ? triangle[i] : sample));
-  return BlockDepths(
-      view, block,
-      [&](auto d, size_t lane, int k) HWY_ATTR {
-        const hn::Rebind<float, decltype(d)> df;
-        return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane));
-      },
-      t);
+    corners.set(i, triangles.corners((pixels >> i & 1) != 0 ? winner[i] : sample));
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> df;
+  std::uint32_t bits = 0;
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto ray = [&](int k) HWY_ATTR {
+      return k < 3 ? hn::Set(d, double{view.camera.eye[k]})
+                   : BlockDirections(d, state, block, lane, k - 3);
+    };
+    auto depth = hn::Zero(df);
+    auto certain = hn::FirstN(df, 0);
+    TriangleDepths(
+        d, ray,
+        [&](int k) HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane)); }, depth,
+        certain);
+    hn::Store(depth, df, t + lane);
+    bits |= MaskBits(df, certain) << lane;
+  }
+  return bits;
 }
 
+// From so many of a block's pixels on, one triangle's are computed by themselves.
+constexpr size_t kManyOfBlock = 4;
+
 // Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
+// `plane` is kept from call to call: neighbouring blocks mostly have the same winner.
 template <class Triangles>
 inline void LearnBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
-                       std::uint32_t pixels) {
+                           std::uint32_t pixels, KnownPlane& plane) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
   const hn::RebindToFloat<decltype(d)> df;
+  const std::uint32_t* winner = state.winner + first;
   std::uint32_t unknown = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto known = hn::Load(d, state.known + first + lane);
-    unknown |= MaskBits(d, hn::Ne(hn::Load(d, state.winner + first + lane), known)) << lane;
+    unknown |= MaskBits(d, hn::Ne(hn::Load(d, winner + lane), known)) << lane;
   }
   unknown &= pixels;
-  if (unknown == 0) return;
-
-  const std::uint32_t* winner = state.winner + first;
-  const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
-  std::uint32_t same = 0;
-  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
-    same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
   HWY_ALIGN float depth[kBlockPixels];
-  const std::uint32_t certain =
-      unknown &
-      ((unknown & ~same) == 0 ? BlockDepthsOf(view, block, triangles.corners(sample), depth)
-                              : BlockDepthsOfEach(view, triangles, block, winner, unknown, sample, depth));
-  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto mask = MaskOfBits(d, certain >> lane);
-    const auto triangle = hn::Load(d, winner + lane);
-    hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
-    hn::BlendedStore(triangle, mask, d, state.known + first + lane);
-  }
-  for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    state.id[first + i] = triangles.id(winner[i]);
-  }
-  for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    learn_pixel(view, state, static_cast<int>(first + i), Indexed(triangles, winner[i]));
+  // Triangle by triangle while one has many of the pixels, then each pixel's own.
+  while (unknown != 0) {
+    const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
+    std::uint32_t same = 0;
+    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
+      same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
+    same &= unknown;
+    std::uint32_t now = unknown, certain = 0;
+    if (same == unknown || hwy::PopCount(same) >= kManyOfBlock) {
+      now = same;
+      if (plane.index != sample) {
+        plane.set(view.camera.eye, triangles.corners(sample));
+        plane.index = sample;
+      }
+      certain = now & BlockDepthsOf(state, block, plane, depth);
+      const auto id = hn::Set(d, triangles.id(sample));
+      for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
+        hn::BlendedStore(id, MaskOfBits(d, certain >> lane), d, state.id + first + lane);
+    } else {
+      certain = now & BlockDepthsOfEach(view, triangles, state, block, now, sample, depth);
+      for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
+        const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+        state.id[first + i] = triangles.id(winner[i]);
+      }
+    }
+    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+      const auto mask = MaskOfBits(d, certain >> lane);
+      hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
+      hn::BlendedStore(hn::Load(d, winner + lane), mask, d, state.known + first + lane);
+    }
+    for (std::uint32_t bits = now & ~certain; bits != 0; bits &= bits - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      learn_pixel(view, state, static_cast<int>(first + i), Indexed(triangles, winner[i]));
+    }
+    unknown &= ~now;
   }
 }
 
 // Gives the frame what the tile won.
 template <class Triangles>
 inline void StoreTile(const TileView& view, const Triangles& triangles, TileState& state, Frame& frame) {
+  KnownPlane plane;
   for (int block = 0; block < kTileBlocks * kTileBlocks; ++block)
-    LearnBlock(view, triangles, state, block, 0xffffu);
+    LearnBlock(view, triangles, state, block, 0xffffu, plane);
   ForEachRun(view, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
     CopyRun(frame.depth.data() + pixel, state.t + offset, pixels);
     CopyRun(frame.id.data() + pixel, state.id + offset, pixels);

@@ -39,6 +39,10 @@ struct TileState {
   /// of it. They may be out of date, for a pixel's answer only ever comes nearer.
   alignas(64) float block_low[kTileBlocks * kTileBlocks];
   float tile_low;
+  /// What the directions of pixels are made of, component by component: the part of a pixel's column for each
+  /// pixel of a block of each column of blocks, and that of its row.
+  alignas(64) double direction_x[3][kTileBlocks * kBlockPixels];
+  alignas(64) double direction_y[3][kTileBlocks * kBlockPixels];
   /// Blocks whose pixels' bounds have changed since block_low was computed, a bit each.
   std::uint64_t changed;
 };

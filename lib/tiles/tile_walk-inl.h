@@ -96,7 +96,7 @@ class TileWalk {
               std::min(view.y + kTilePx, frame.height) - 1},
         tile_(frustum, rect_.x0, rect_.y0, rect_.x1, rect_.y1) {
     candidates_.count = 0;
-    StartTile(rect_.x1 - rect_.x0 + 1, rect_.y1 - rect_.y0 + 1, state_);
+    StartTile(view_, state_);
     walk();
     draw_candidates(candidates_.count);
     StoreTile(view_, triangles_, state_, frame);
