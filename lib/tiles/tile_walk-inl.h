@@ -19,6 +19,7 @@
 
 #include "base/mask_bits-inl.h"
 #include "build/binary_tree.h"
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "pixels/block_draw-inl.h"
 #include "pixels/no_tile_counts.h"
@@ -119,6 +120,7 @@ class TileWalk {
         for (; met != 0; met &= met - 1) {
           const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
           const TileWalkEntry entry{near[i], node.child[i], node.count[i]};
+          prefetch(entry);
           TileWalkEntry* place = top++;
           for (; place != base && place[-1].near < entry.near; --place) *place = place[-1];
           *place = entry;
@@ -128,6 +130,20 @@ class TileWalk {
         if (top == stack) return;
         current = *--top;
       } while (current.near * low() > kTileRoom);
+    }
+  }
+
+  // Fetches what waits on the stack meanwhile: a tile sees little of the tree, and its neighbours on the screen
+  // need not be so in memory.
+  HWY_INLINE void prefetch(const TileWalkEntry& entry) const {
+    const auto lines = [](const auto* what) HWY_ATTR {
+      const char* const bytes = reinterpret_cast<const char*>(what);
+      for (size_t i = 0; i < sizeof(*what); i += 64) hwy::Prefetch(bytes + i);
+    };
+    if (entry.count != 0) {
+      lines(&tree_.blocks[entry.child]);
+    } else {
+      lines(&tree_.nodes[entry.child]);
     }
   }
 
