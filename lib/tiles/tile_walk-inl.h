@@ -79,6 +79,16 @@ HWY_INLINE std::uint32_t MeetChildren(const WideNode<W>& node, const FrameFrustu
   return met;
 }
 
+// Whether one of the triangles whose bit is set may cover the rectangle.
+HWY_INLINE bool AnyWide(const ScreenBoxes& boxes, std::uint32_t seen, const PixelRect& rect) {
+  const hn::Rebind<std::int32_t, SetupTag> d;
+  const auto wide = hn::And(hn::And(hn::Eq(hn::Load(d, boxes.x0), hn::Set(d, rect.x0)),
+                                    hn::Eq(hn::Load(d, boxes.x1), hn::Set(d, rect.x1))),
+                            hn::And(hn::Eq(hn::Load(d, boxes.y0), hn::Set(d, rect.y0)),
+                                    hn::Eq(hn::Load(d, boxes.y1), hn::Set(d, rect.y1))));
+  return (MaskBits(d, wide) & seen) != 0;
+}
+
 struct TileWalkEntry {
   float near;  // the least t of what is in its box, or less
   std::uint32_t child;
@@ -158,8 +168,10 @@ class TileWalk {
         if (filled >> lane == 0) break;
         add_candidates(block, lane, filled >> lane);
       }
-      const size_t whole = candidates_.count / hn::Lanes(SetupTag()) * hn::Lanes(SetupTag());
-      if (whole != 0) draw_candidates(whole);
+      const size_t ready =
+          wide_ ? candidates_.count : candidates_.count / hn::Lanes(SetupTag()) * hn::Lanes(SetupTag());
+      if (ready != 0) draw_candidates(ready);
+      wide_ = false;
       if (count <= static_cast<std::uint32_t>(W)) return;
       count -= static_cast<std::uint32_t>(W);
     }
@@ -185,6 +197,7 @@ class TileWalk {
     std::uint32_t seen = filled & BoundOnScreen(frustum_.view, rect_, corner, boxes);
     const auto low = hn::Set(df, state_.tile_low);
     seen &= ~MaskBits(df, hn::Lt(hn::Load(df, boxes.nearest), low));
+    wide_ |= AnyWide(boxes, seen, rect_);
     AddCandidates(corner, boxes, seen, static_cast<size_t>(block) * W + lane, candidates_);
   }
 
@@ -236,6 +249,7 @@ class TileWalk {
   PixelRect rect_;
   TileFrustum tile_;
   SetupCandidates candidates_;
+  bool wide_ = false;  // a candidate may hide all that is behind it
   TileState state_;
   [[no_unique_address]] NoTileCounts counts_;
 };
