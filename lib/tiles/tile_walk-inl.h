@@ -107,10 +107,14 @@ class TileWalk {
               std::min(view.y + kTilePx, frame.height) - 1},
         tile_(frustum, rect_.x0, rect_.y0, rect_.x1, rect_.y1) {
     candidates_.count = 0;
-    StartTile(view_, state_);
+    state_.tile_low = -kFloatInfinity;
     walk();
-    draw_candidates(candidates_.count);
-    StoreTile(view_, triangles_, state_, frame);
+    if (candidates_.count != 0) draw_candidates(candidates_.count);
+    if (started_) {
+      StoreTile(view_, triangles_, state_, frame);
+    } else {
+      ClearTile(view_, frame);
+    }
   }
 
  private:
@@ -203,6 +207,10 @@ class TileWalk {
 
   // Draws the first candidates, as many as wanted, a vector at a time.
   void draw_candidates(size_t count) {
+    if (!started_) {
+      StartTile(view_, state_);
+      started_ = true;
+    }
     const SetupTag d;
     for (size_t first = 0; first < count; first += hn::Lanes(d))
       draw_vector(first, std::min(hn::Lanes(d), count - first));
@@ -249,7 +257,8 @@ class TileWalk {
   PixelRect rect_;
   TileFrustum tile_;
   SetupCandidates candidates_;
-  bool wide_ = false;  // a candidate may hide all that is behind it
+  bool started_ = false;  // state_ is set but for tile_low
+  bool wide_ = false;       // a candidate may hide all that is behind it
   TileState state_;
   [[no_unique_address]] NoTileCounts counts_;
 };
