@@ -107,6 +107,7 @@ class TileWalk {
               std::min(view.y + kTilePx, frame.height) - 1},
         tile_(frustum, rect_.x0, rect_.y0, rect_.x1, rect_.y1) {
     candidates_.count = 0;
+    std::fill(std::begin(added_), std::end(added_), kNone);
     state_.tile_low = -kFloatInfinity;
     walk();
     if (candidates_.count != 0) draw_candidates(candidates_.count);
@@ -201,8 +202,23 @@ class TileWalk {
     std::uint32_t seen = filled & BoundOnScreen(frustum_.view, rect_, corner, boxes);
     const auto low = hn::Set(df, state_.tile_low);
     seen &= ~MaskBits(df, hn::Lt(hn::Load(df, boxes.nearest), low));
+    if (seen == 0) return;
+    seen = not_yet_added(from.id + lane, seen);
     wide_ |= AnyWide(boxes, seen, rect_);
     AddCandidates(corner, boxes, seen, static_cast<size_t>(block) * W + lane, candidates_);
+  }
+
+  // Of triangles whose bit is set, those that were not added of late: several leaves may have one
+  // (Quality::Best), and a triangle is drawn into the whole tile at once.
+  HWY_INLINE std::uint32_t not_yet_added(const std::uint32_t* id, std::uint32_t seen) {
+    std::uint32_t fresh = 0;
+    for (; seen != 0; seen &= seen - 1) {
+      const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(seen);
+      std::uint32_t& known = added_[id[lane] % kAdded];
+      fresh |= std::uint32_t{known != id[lane]} << lane;
+      known = id[lane];
+    }
+    return fresh;
   }
 
   // Draws the first candidates, as many as wanted, a vector at a time.
@@ -256,6 +272,8 @@ class TileWalk {
   const TileView& view_;
   PixelRect rect_;
   TileFrustum tile_;
+  static constexpr size_t kAdded = 256;
+  std::uint32_t added_[kAdded];  // the last id added of those with the same remainder, or kNone
   SetupCandidates candidates_;
   bool started_ = false;  // state_ is set but for tile_low
   bool wide_ = false;       // a candidate may hide all that is behind it
