@@ -29,6 +29,10 @@ Frame dirty_frame(const Camera& camera) {
   return frame;
 }
 
+Quality next(Quality quality) {
+  return quality == Quality::Best ? Quality::Fast : static_cast<Quality>(static_cast<int>(quality) + 1);
+}
+
 }  // namespace
 
 TEST_SUITE("agree: frames") {
@@ -89,6 +93,7 @@ TEST_SUITE("agree: frames") {
     const oneapi::tbb::global_control allow(oneapi::tbb::global_control::max_allowed_parallelism, 4);
     CastOptions options;
     options.method = CastMethod::Tiles;
+    Quality quality = Quality::Best;
     for (const hard::View& view : hard::views()) {
       CAPTURE(view.name);
       for (const int width : {4, 8}) {
@@ -96,6 +101,8 @@ TEST_SUITE("agree: frames") {
         BuildOptions build;
         build.width = width;
         build.threads = 1;
+        build.quality = quality;
+        quality = next(quality);
         const Bvh bvh(view.mesh, build);
         for (const Simd simd : simd_targets()) {
           CAPTURE(simd_name(simd));

@@ -49,9 +49,14 @@ void check_frames(const Structure& structure, const std::string& scene) {
     CAPTURE(view.name);
     const Camera camera = Camera::look_at(view.eye, view.target, view.up, view.fov_y_degrees,
                                           shared::kFrameWidth, shared::kFrameHeight);
-    Frame frame(shared::kFrameWidth, shared::kFrameHeight);
-    cast(structure, camera, frame);
-    CHECK(compare(frame, shared::frame(view)).different_pixels == 0);
+    const Frame expected = shared::frame(view);
+    for (const CastMethod method : {CastMethod::Auto, CastMethod::Rays}) {
+      Frame frame(shared::kFrameWidth, shared::kFrameHeight);
+      CastOptions options;
+      options.method = method;
+      cast(structure, camera, frame, options);
+      CHECK(compare(frame, expected).different_pixels == 0);
+    }
   }
 }
 
