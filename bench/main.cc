@@ -35,9 +35,11 @@ std::vector<Task> all_tasks(const ViewName& name, const Options& options, int th
   const Context context{name, threads, trees, options.peer_isa, workload};
   std::vector<Task> tasks = our_tasks(context, options.targets);
   for (Task& task : embree_tasks(context)) tasks.push_back(std::move(task));
+  const auto wants = [](const std::vector<std::string>& wanted, const std::string& name_of) {
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name_of) != wanted.end();
+  };
   const auto unwanted = [&](const Task& task) {
-    const std::vector<std::string>& wanted = options.methods;
-    return !wanted.empty() && std::find(wanted.begin(), wanted.end(), task.method) == wanted.end();
+    return !wants(options.methods, task.method) || !wants(options.works, work_name(task.work));
   };
   std::erase_if(tasks, unwanted);
   return tasks;

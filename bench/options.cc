@@ -23,6 +23,7 @@ before a time counts; those of the fast and the watertight arithmetic and of Emb
   --table          tables in Markdown, all methods interleaved, instead of Google Benchmark's list
   --peers          the same, against the fastest of all of Embree's calls and trees
   --methods=LIST   only these methods, with commas: raster,bvh8,bvh8-single,bvh8-best-build,embree-fast-16
+  --works=LIST     only these: camera,shadow,occlusion,diffuse,random,frame,build
   --rounds=N       how often the table runs each method; it shows medians (5)
   --threads=LIST   counts or "all", with commas (1,all)
   --simd=LIST      instruction sets, with commas, or "all" (all)
@@ -97,6 +98,8 @@ Options parse_options(int argc, const char* const* argv) {
       options.table = options.peers = true;
     } else if (key == "--methods") {
       for (const std::string_view part : split(value, ',')) options.methods.emplace_back(part);
+    } else if (key == "--works") {
+      for (const std::string_view part : split(value, ',')) options.works.emplace_back(part);
     } else if (key == "--cameras") {
       cameras = value;
     } else if (key == "--rounds") {

@@ -13,6 +13,7 @@ struct Options {
   bool help = false;
   bool peers = false;                ///< the table, with the peer's best as the baseline
   std::vector<std::string> methods;  ///< the tasks' methods; empty: all
+  std::vector<std::string> works;    ///< names of the tasks' works; empty: all
   bool table = false;                ///< the Markdown table instead of Google Benchmark
   int width = 1280, height = 720;
   int rounds = 5;            ///< of the table

@@ -1,7 +1,7 @@
 // Draws the triangles of a tile's list. It is the descent of a quadtree over the screen, from coarse to fine
 // (Warnock 1969, "A hidden surface algorithm for computer generated halftone pictures"), with several of its
-// levels a step: frame, tile of 32 x 32, then block of 4 x 4 and pixel (pixels/block_draw-inl.h). Included once
-// per Highway target.
+// levels a step: frame, tile of 32 x 32, then block of 4 x 4 and pixel (pixels/block_draw-inl.h). Included
+// once per Highway target.
 
 #if defined(PLUMB_RASTER_TILE_DRAW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLUMB_RASTER_TILE_DRAW_INL_H_
@@ -85,8 +85,8 @@ inline void DrawTile(const TileView& view, const MeshTriangles& mesh, const Binn
 
 // The same, counted: out of line, so that it costs the other nothing.
 HWY_NOINLINE inline void CountTile(const TileView& view, const MeshTriangles& mesh,
-                                   const BinnedTriangles& triangles,
-                                   std::span<const BinEntry> entries, Frame& frame, RasterCounts& counts) {
+                                   const BinnedTriangles& triangles, std::span<const BinEntry> entries,
+                                   Frame& frame, RasterCounts& counts) {
   TileCounts counter{counts};
   DrawEntries(view, mesh, triangles, entries, frame, counter);
 }

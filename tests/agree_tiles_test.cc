@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <oneapi/tbb/global_control.h>
+#include <glm/common.hpp>
 
 #include "plumb/builtin.h"
 #include "plumb/bvh.h"

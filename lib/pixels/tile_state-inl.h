@@ -267,15 +267,13 @@ inline std::uint32_t BlockDepthsOfEach(const TileView& view, const Triangles& tr
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto ray = [&](int k) HWY_ATTR {
-      return k < 3 ? hn::Set(d, double{view.camera.eye[k]})
-                   : BlockDirections(d, state, block, lane, k - 3);
+      return k < 3 ? hn::Set(d, double{view.camera.eye[k]}) : BlockDirections(d, state, block, lane, k - 3);
     };
     auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
     TriangleDepths(
-        d, ray,
-        [&](int k) HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane)); }, depth,
-        certain);
+        d, ray, [&](int k) HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane)); },
+        depth, certain);
     hn::Store(depth, df, t + lane);
     bits |= MaskBits(df, certain) << lane;
   }
@@ -289,7 +287,7 @@ constexpr size_t kManyOfBlock = 4;
 // `plane` is kept from call to call: neighbouring blocks mostly have the same winner.
 template <class Triangles>
 inline void LearnBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
-                           std::uint32_t pixels, KnownPlane& plane) {
+                       std::uint32_t pixels, KnownPlane& plane) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
   const hn::RebindToFloat<decltype(d)> df;
@@ -344,8 +342,8 @@ inline void ClearTile(const TileView& view, Frame& frame) {
   const int columns = std::min(kTilePx, view.camera.width - view.x);
   const int rows = std::min(kTilePx, view.camera.height - view.y);
   for (int y = view.y; y < view.y + rows; ++y) {
-    const size_t first = static_cast<size_t>(y) * static_cast<size_t>(view.camera.width) +
-                         static_cast<size_t>(view.x);
+    const size_t first =
+        static_cast<size_t>(y) * static_cast<size_t>(view.camera.width) + static_cast<size_t>(view.x);
     std::fill_n(frame.depth.data() + first, columns, kFloatInfinity);
     std::fill_n(frame.id.data() + first, columns, kNone);
   }

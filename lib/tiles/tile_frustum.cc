@@ -44,8 +44,8 @@ struct Interval {
   double lo, hi;
 };
 
-// Of one component of the directions of a rectangle's pixels: it is affine but for `offset`, which has room for
-// the roundings here (pixels/projection.h: theirs are 2^-49 of what 2^-24 1e-4 is left of).
+// Of one component of the directions of a rectangle's pixels: it is affine but for `offset`, which has room
+// for the roundings here (pixels/projection.h: theirs are 2^-49 of what 2^-24 1e-4 is left of).
 Interval extremes(double c0, double du, double dv, double offset, int x0, int y0, int x1, int y1) {
   const auto [x_lo, x_hi] = std::minmax({x0 * du, x1 * du});
   const auto [y_lo, y_hi] = std::minmax({y0 * dv, y1 * dv});
@@ -59,7 +59,11 @@ TileSlab make_slab(const Interval& direction, float eye, std::uint32_t axis) {
   const double sign = up ? 1.0 : -1.0;
   const double least = up ? direction.lo : -direction.hi;
   const double greatest = up ? direction.hi : -direction.lo;
-  TileSlab slab{eye, 0.0f, 0.0f, std::numeric_limits<float>::infinity(), 2 * axis + (up ? 0u : 1u),
+  TileSlab slab{eye,
+                0.0f,
+                0.0f,
+                std::numeric_limits<float>::infinity(),
+                2 * axis + (up ? 0u : 1u),
                 2 * axis + (up ? 1u : 0u)};
   if (!(least > 0.0)) return slab;  // of either sign
   if (greatest > kLeast) slab.near_scale = round_to_float(sign / greatest * (1.0 - 0x1p-21));
@@ -78,8 +82,9 @@ FrameFrustum::FrameFrustum(const Projection& view_in, float greatest)
             std::max({std::fabs(view.eye.x), std::fabs(view.eye.y), std::fabs(view.eye.z)})),
       usable(view.slack_px < std::numeric_limits<double>::infinity() && reach < 0x1p60),
       depth(make_plane(*this, view.row_z, view.row_error_z, -1.0)),
-      // The least of 1 / row_z.d over the rays, with row_z's own size for z's. 2^-20 is 16 u: 1 u for this and
-      // the product each, the rest to spare. Where z is tiny the product might underflow: then to below 2^-90.
+      // The least of 1 / row_z.d over the rays, with row_z's own size for z's. 2^-20 is 16 u: 1 u for this
+      // and the product each, the rest to spare. Where z is tiny the product might underflow: then to below
+      // 2^-90.
       depth_scale(round_to_float(norm1(view.row_z) / view.ray_depth * (1.0 - 0x1p-20))) {}
 
 TileFrustum::TileFrustum(const FrameFrustum& frame, int x0, int y0, int x1, int y1) {

@@ -47,8 +47,8 @@ HWY_INLINE hn::Vec<D> PlaneAtBoxes(D d, const BoxPlane& plane, const std::uint32
 }
 
 // The children that the tile may see, one bit each, and the least t of anything seen in their boxes or less.
-// `low` >= 0 bounds the 1/t of all that the tile sees so far. An empty child's planes are -infinity or NaN: it is
-// never met.
+// `low` >= 0 bounds the 1/t of all that the tile sees so far. An empty child's planes are -infinity or NaN:
+// it is never met.
 template <int W>
 HWY_INLINE std::uint32_t MeetChildren(const WideNode<W>& node, const FrameFrustum& frame,
                                       const TileFrustum& tile, float low, float* near) {
@@ -148,8 +148,8 @@ class TileWalk {
     }
   }
 
-  // Fetches what waits on the stack meanwhile: a tile sees little of the tree, and its neighbours on the screen
-  // need not be so in memory.
+  // Fetches what waits on the stack meanwhile: a tile sees little of the tree, and its neighbours on the
+  // screen need not be so in memory.
   HWY_INLINE void prefetch(const TileWalkEntry& entry) const {
     const auto lines = [](const auto* what) HWY_ATTR {
       const char* const bytes = reinterpret_cast<const char*>(what);
@@ -173,6 +173,7 @@ class TileWalk {
         if (filled >> lane == 0) break;
         add_candidates(block, lane, filled >> lane);
       }
+      // Whole vectors, but what may hide the rest is not kept waiting.
       const size_t ready =
           wide_ ? candidates_.count : candidates_.count / hn::Lanes(SetupTag()) * hn::Lanes(SetupTag());
       if (ready != 0) draw_candidates(ready);
@@ -209,7 +210,8 @@ class TileWalk {
   }
 
   // Of triangles whose bit is set, those that were not added of late: several leaves may have one
-  // (Quality::Best), and a triangle is drawn into the whole tile at once.
+  // (Quality::Best), and a triangle is drawn into the whole tile at once. Drawn again it would change
+  // nothing, but every pixel of it would be decided exactly.
   HWY_INLINE std::uint32_t not_yet_added(const std::uint32_t* id, std::uint32_t seen) {
     std::uint32_t fresh = 0;
     for (; seen != 0; seen &= seen - 1) {
@@ -221,7 +223,8 @@ class TileWalk {
     return fresh;
   }
 
-  // Draws the first candidates, as many as wanted, a vector at a time.
+  // Draws the first candidates, as many as wanted, a vector at a time. A tile that sees nothing never comes
+  // here, and is never started.
   void draw_candidates(size_t count) {
     if (!started_) {
       StartTile(view_, state_);
@@ -276,7 +279,7 @@ class TileWalk {
   std::uint32_t added_[kAdded];  // the last id added of those with the same remainder, or kNone
   SetupCandidates candidates_;
   bool started_ = false;  // state_ is set but for tile_low
-  bool wide_ = false;       // a candidate may hide all that is behind it
+  bool wide_ = false;     // a candidate may hide all that is behind it
   TileState state_;
   [[no_unique_address]] NoTileCounts counts_;
 };

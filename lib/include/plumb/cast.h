@@ -13,12 +13,12 @@ namespace plumb {
 enum class CastMethod {
   /// Tiles where the structure can, else rays.
   Auto,
-  /// One ray after the other.
+  /// A ray for every pixel, squares of 4x4 together where the structure traces packets.
   Rays,
-  /// The tree is walked once for a tile of pixels, and the triangles of its leaves are drawn: a wide Bvh's
-  /// (width 4 or 8) with Arithmetic::Exact. Where a camera's rounding leaves open which pixels may see a box,
-  /// the
-  /// frame is cast by rays all the same.
+  /// The tree is walked once for a tile of 32x32 pixels, and the triangles of its leaves are drawn: a wide
+  /// Bvh's (width 4 or 8) with Arithmetic::Exact. About three times as fast as rays. Where coordinates are
+  /// beyond 2^59, or directions so short, long or skew that their rounding leaves open which pixels see a
+  /// box, the frame is cast by rays all the same.
   Tiles,
 };
 
