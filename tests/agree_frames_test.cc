@@ -123,10 +123,14 @@ TEST_SUITE("agree: frames") {
     const Frame before = frame;
     CHECK_THROWS_AS(cast(BruteForce(view.mesh), view.camera, frame, tiles), Error);
     CHECK_THROWS_AS(cast(Bvh(view.mesh, {.width = 2}), view.camera, frame, tiles), Error);
+    CHECK_THROWS_AS(cast(Bvh(view.mesh, {.compact = true}), view.camera, frame, tiles), Error);
     for (const Arithmetic arithmetic : {Arithmetic::Fast, Arithmetic::Watertight})
       CHECK_THROWS_AS(cast(Bvh(view.mesh, {.arithmetic = arithmetic}), view.camera, frame, tiles), Error);
     CHECK(hard::difference(frame, before) == "");
     cast(Bvh(view.mesh), view.camera, frame);
+    CHECK(hard::difference(frame, view.expected) == "");
+    frame = dirty_frame(view.camera);
+    cast(Bvh(view.mesh, {.compact = true}), view.camera, frame);
     CHECK(hard::difference(frame, view.expected) == "");
   }
 }

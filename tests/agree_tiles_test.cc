@@ -160,6 +160,27 @@ TEST_SUITE("agree: tiles") {
     }
   }
 
+  TEST_CASE("trees that followed moved vertices") {
+    hard::Random random(4);
+    const TriangleMesh mesh = builtin_scene("spheres:3000").mesh;
+    for (const Quality quality : {Quality::Fast, Quality::Best}) {
+      BuildOptions build;
+      build.quality = quality;
+      Bvh bvh(mesh, build);
+      // Farther from the origin than the tree was built for, and bent.
+      TriangleMesh bent = moved(mesh, 3.0f, glm::vec3(50.0f, -20.0f, 10.0f));
+      for (glm::vec3& p : bent.positions) p.x += 0.2f * p.y * std::sin(p.z);
+      bvh.refit(bent);
+      for (const NamedCamera& view : hard_cameras(bent, random)) {
+        CAPTURE(view.name);
+        Frame drawn(view.camera.width, view.camera.height), frame = drawn;
+        rasterize(bent, view.camera, drawn);
+        cast(bvh, view.camera, frame, {.method = CastMethod::Tiles});
+        check_equal(drawn, frame);
+      }
+    }
+  }
+
   TEST_CASE("the shared scenes") {
     PLUMB_REQUIRE_SHARED();
     hard::Random random(3);
