@@ -149,7 +149,8 @@ TEST_SUITE("collapse") {
   TEST_CASE("no other choice of children makes the wide nodes' areas sum to less") {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       CAPTURE(seed);
-      const TriangleMesh mesh = build_scenes::soup(4 + static_cast<int>(seed) / 4, 1.0f, 0.5f, seed);
+      const TriangleMesh mesh =
+          build_scenes::soup(4 + static_cast<std::uint32_t>(seed) / 4, 1.0f, 0.5f, seed);
       const BinaryTree tree = build(mesh, 1, 1);
       const double four = area_of_nodes(tree, WideCuts<4>(tree), 0);
       CHECK(four == doctest::Approx(AllWays(tree, 4).least(0)).epsilon(1e-5));
