@@ -125,13 +125,13 @@ TEST_SUITE("refit") {
     const TriangleMesh mesh = build_scenes::grid(20, 2.0f, 4), later = moved(mesh, wave);
     Bvh bvh(mesh);
     const Bvh copy = bvh;
-    const Bvh scalar = bvh.with_simd(Simd::Scalar);
+    const Bvh scalar = bvh.with_simd(simd_targets().back());
     bvh.refit(later);
     const std::vector<Ray> before = rays_at(mesh, 200, 1), after = rays_at(later, 200, 2);
     check_same(copy, mesh, before);
     check_same(scalar, mesh, before);
     check_same(bvh, later, after);
-    check_same(bvh.with_simd(Simd::Scalar), later, after);
+    check_same(bvh.with_simd(simd_targets().back()), later, after);
     Bvh other = bvh;
     bvh = Bvh(mesh);
     other.refit(mesh);  // alone now
