@@ -59,34 +59,34 @@ void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, Frame& frame) {
 void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, Frame& frame) {
   const std::size_t count = mesh.triangles.size();
   Progress progress(options_.progress, count);
-  for (std::size_t first = 0; first < count && !progress.cancelled(); first += Bins::kBatch) {
-    const std::size_t last = std::min(first + Bins::kBatch, count);
-    bins_.fill(mesh, first, last, options_.threads);
-    // The batch's share of the progress, spread over its tiles.
-    const std::size_t tiles =
-        bins_.end_tile() > bins_.begin_tile() ? bins_.end_tile() - bins_.begin_tile() : 0;
+  for (std::size_t first = 0; first < count && !progress.cancelled();) {
+    const std::size_t end = bins_.fill(mesh, first, count, options_.threads);
+    // The batch's share of the progress, spread over the tiles.
+    const std::size_t tiles = bins_.tiles().size();
     parallel_for(tiles, options_.threads, [&](std::size_t i) {
       if (progress.cancelled()) return;
-      draw_tile(mesh, first_id, bins_.begin_tile() + i, frame);
-      progress.add((last - first) * (i + 1) / tiles - (last - first) * i / tiles);
+      draw_tile(mesh, first_id, i, frame);
+      progress.add((end - first) * (i + 1) / tiles - (end - first) * i / tiles);
     });
-    if (tiles == 0) progress.add(last - first);
+    first = end;
   }
   progress.throw_if_cancelled();
 }
 
 void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const {
-  const std::vector<BinEntry> entries = bins_.list(tile);
-  if (entries.empty()) return;
+  TileContents contents;
+  bins_.collect(tile, contents);
+  if (contents.empty()) return;
   const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
   const TileView view{camera_, projection_.exact_only, static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
+  const TileJob job{projection_, view, tile, contents};
   const MeshTriangles triangles{mesh, first_id};
   if (counts_ != nullptr) {
-    kernels_.count_tile(view, triangles, bins_.triangles(), entries, frame, *counts_);
-    return;
+    kernels_.count_tile(job, triangles, frame, *counts_);
+  } else {
+    kernels_.draw_tile(job, triangles, frame);
   }
-  kernels_.draw_tile(view, triangles, bins_.triangles(), entries, frame);
 }
 
 }  // namespace plumb::detail

@@ -7,13 +7,13 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "raster/setup-inl.h"
+#include "raster/binning-inl.h"
 #include "raster/tile_draw-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-RasterKernels MakeRasterKernels() { return {&SetUpTriangles, &DrawTile, &CountTile}; }
+RasterKernels MakeRasterKernels() { return {&BinTriangles, &DrawTile, &CountTile}; }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

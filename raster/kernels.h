@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "pixels/projection.h"
 #include "pixels/screen_triangle.h"
@@ -11,50 +11,44 @@
 #include "plumb/raster.h"
 #include "plumb/simd.h"
 #include "raster/mesh_triangles.h"
+#include "raster/square_lists.h"
+#include "raster/tile_lists.h"
 
 namespace plumb::detail {
 
-/// Triangles set up: those of one tile each about their tile, the others over the frame.
+/// Triangles that the frame may see: wide ones set up, the others listed with their tiles.
 struct BinnedTriangles {
-  TileTriangle* placed;
-  ScreenTriangle* wide;
+  TileLists lists;
+  std::vector<ScreenTriangle> wide;
 };
 
-/// A triangle in a tile's list.
-class BinEntry {
- public:
-  BinEntry() = default;
-  BinEntry(bool placed, std::uint32_t index, float nearest_in)
-      : nearest(nearest_in), word_(index | (placed ? kPlaced : 0)) {}
+/// What a tile may see, in the order in which it is drawn.
+struct TileContents {
+  std::vector<std::span<const WideEntry>> sorted;  ///< each from front to back
+  std::vector<WideEntry> wide;                     ///< roughly so
+  std::vector<const TileLists*> lists;
 
-  bool placed() const { return (word_ & kPlaced) != 0; }
-  std::uint32_t index() const { return word_ & ~kPlaced; }
-
-  float nearest;  ///< ScreenTriangle::nearest
-
- private:
-  static constexpr std::uint32_t kPlaced = 0x80000000u;
-  std::uint32_t word_;
+  bool empty() const { return sorted.empty() && wide.empty() && lists.empty(); }
 };
 
-/// How many triangles were set up.
-struct SetupCounts {
-  std::size_t placed, wide;
+/// A tile on the way to the frame.
+struct TileJob {
+  const Projection& projection;
+  const TileView& view;
+  std::size_t tile;  ///< its number in the lists
+  const TileContents& contents;
 };
 
 /// The steps of rasterizing that are compiled per SIMD target. Callers hold the default floating-point
 /// mode.
 struct RasterKernels {
-  /// Sets up the mesh's triangles from `first` to before `last`. `to` has room for all of them of either
-  /// kind; those that no pixel sees are left out.
-  SetupCounts (*set_up)(const Projection& view, MeshView mesh, std::size_t first, std::size_t last,
-                        const BinnedTriangles& to);
-  /// Draws the entries into a tile and merges it into the frame.
-  void (*draw_tile)(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
-                    std::span<const BinEntry> entries, Frame& frame);
+  /// Adds the mesh's triangles from `first` to before `last`, but those that no pixel sees.
+  void (*bin)(const Projection& view, MeshView mesh, std::size_t first, std::size_t last,
+              BinnedTriangles& to);
+  /// Draws a tile and merges it into the frame.
+  void (*draw_tile)(const TileJob& job, const MeshTriangles& mesh, Frame& frame);
   /// The same, and counts what it tests.
-  void (*count_tile)(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
-                     std::span<const BinEntry> entries, Frame& frame, RasterCounts& counts);
+  void (*count_tile)(const TileJob& job, const MeshTriangles& mesh, Frame& frame, RasterCounts& counts);
 };
 
 /// Those of one resolved target.

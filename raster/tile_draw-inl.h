@@ -17,6 +17,7 @@
 #include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "pixels/block_draw-inl.h"
+#include "pixels/candidate_draw-inl.h"
 #include "pixels/no_tile_counts.h"
 #include "pixels/tile_planes-inl.h"
 #include "pixels/tile_state-inl.h"
@@ -42,53 +43,114 @@ HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const 
   DrawBlocks(view, mesh, placed, true, state, counts);
 }
 
+// Draws the wide triangles of a list. Of a list that is `sorted` from front to back, what follows one that is
+// hidden is hidden too.
 template <class Counts>
-HWY_INLINE void DrawEntries(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
-                            std::span<const BinEntry> entries, Frame& frame, Counts& counts) {
+HWY_INLINE void DrawWideList(const TileJob& job, const MeshTriangles& mesh, std::span<const WideEntry> list,
+                             bool sorted, TileState& state, Counts& counts) {
   constexpr size_t kAhead = 8;
-  const auto prefetch = [&](const BinEntry& entry) HWY_ATTR {
-    const auto* next = entry.placed() ? reinterpret_cast<const char*>(triangles.placed + entry.index())
-                                      : reinterpret_cast<const char*>(triangles.wide + entry.index());
+  const auto prefetch = [&](size_t i) HWY_ATTR {
+    const auto* const next = reinterpret_cast<const char*>(list[i].triangle);
     hwy::Prefetch(next);
     hwy::Prefetch(next + 64);
   };
-  for (size_t i = 0; i < std::min(kAhead, entries.size()); ++i) prefetch(entries[i]);
-  TileState state;
-  LoadTile(view, frame, state);
-  for (size_t i = 0; i < entries.size(); ++i) {
-    if (i + kAhead < entries.size()) prefetch(entries[i + kAhead]);
-    const BinEntry entry = entries[i];
+  for (size_t i = 0; i < std::min(kAhead, list.size()); ++i) prefetch(i);
+  for (size_t i = 0; i < list.size(); ++i) {
+    if (i + kAhead < list.size()) prefetch(i + kAhead);
     if (i % 8 == 0) UpdateLows(state);
-    const bool hidden = entry.nearest < state.tile_low;  // in all of the tile
+    const bool hidden = list[i].nearest < state.tile_low;  // in all of the tile
     counts.tile(hidden);
-    if (hidden) continue;
-    if (!entry.placed()) {
-      DrawWide(view, mesh, triangles.wide[entry.index()], state, counts);
-      continue;
-    }
-    const TileTriangle& triangle = triangles.placed[entry.index()];
-    if (triangle.x1 / kBlockPx - triangle.x0 / kBlockPx < 2 &&
-        triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
-      DrawSmall(view, mesh, triangle, state, counts);
-    } else {
-      DrawBlocks(view, mesh, triangle, false, state, counts);
-    }
+    if (hidden && sorted) return;
+    if (!hidden) DrawWide(job.view, mesh, *list[i].triangle, state, counts);
   }
-  StoreTile(view, mesh, state, frame);
 }
 
-inline void DrawTile(const TileView& view, const MeshTriangles& mesh, const BinnedTriangles& triangles,
-                     std::span<const BinEntry> entries, Frame& frame) {
+// Whether all that the tile may see of the triangle is hidden.
+HWY_INLINE bool Hidden(const TileEntry& entry, const TileState& state) {
+  const int column0 = entry.x0 / kBlockPx, column1 = entry.x1 / kBlockPx;
+  const int row0 = entry.y0 / kBlockPx * kTileBlocks, row1 = entry.y1 / kBlockPx * kTileBlocks;
+  if (column1 - column0 > 1 || row1 - row0 > kTileBlocks) return entry.nearest < state.tile_low;
+  const float* const low = state.block_low;
+  const float least = std::min(std::min(low[row0 + column0], low[row0 + column1]),
+                               std::min(low[row1 + column0], low[row1 + column1]));
+  return entry.nearest < least;
+}
+
+HWY_INLINE void AddEntry(const TileView& view, MeshView mesh, const TileEntry& entry, SetupCandidates& to) {
+  const glm::uvec3& c = mesh.triangles[entry.index];
+  const glm::vec3* const vertex[3] = {&mesh.positions[c.x], &mesh.positions[c.y], &mesh.positions[c.z]};
+  const size_t i = to.count++;
+  for (int v = 0; v < 3; ++v) {
+    to.corner[3 * v][i] = vertex[v]->x;
+    to.corner[3 * v + 1][i] = vertex[v]->y;
+    to.corner[3 * v + 2][i] = vertex[v]->z;
+  }
+  to.x0[i] = view.x + entry.x0;
+  to.y0[i] = view.y + entry.y0;
+  to.x1[i] = view.x + entry.x1;
+  to.y1[i] = view.y + entry.y1;
+  to.nearest[i] = entry.nearest;
+  to.index[i] = entry.index;
+}
+
+// Fetches what a run's triangles are made of, all at once rather than one after the other.
+HWY_INLINE void FetchRun(MeshView mesh, std::span<const TileEntry> run) {
+  for (const TileEntry& entry : run) hwy::Prefetch(&mesh.triangles[entry.index]);
+  for (const TileEntry& entry : run) {
+    const glm::uvec3& c = mesh.triangles[entry.index];
+    hwy::Prefetch(&mesh.positions[c.x]);
+    hwy::Prefetch(&mesh.positions[c.y]);
+    hwy::Prefetch(&mesh.positions[c.z]);
+  }
+}
+
+// Draws the triangles of the tile's lists.
+template <class Counts>
+HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileState& state, Counts& counts) {
+  SetupCandidates candidates;
+  candidates.count = 0;
+  const auto draw = [&]() HWY_ATTR {
+    DrawCandidates(job.projection, job.view, mesh, candidates, 0, candidates.count, state, counts);
+    candidates.count = 0;
+    UpdateLows(state);
+  };
+  for (const TileLists* const lists : job.contents.lists) {
+    lists->visit(job.tile, [&](std::span<const TileEntry> run) HWY_ATTR {
+      FetchRun(mesh.mesh, run);
+      for (const TileEntry& entry : run) {
+        const bool hidden = Hidden(entry, state);
+        counts.tile(hidden);
+        if (hidden) continue;
+        AddEntry(job.view, mesh.mesh, entry, candidates);
+        if (candidates.count == hn::Lanes(SetupTag())) draw();
+      }
+    });
+  }
+  if (candidates.count != 0) draw();
+}
+
+template <class Counts>
+HWY_INLINE void DrawContents(const TileJob& job, const MeshTriangles& mesh, Frame& frame, Counts& counts) {
+  TileState state;
+  LoadTile(job.view, frame, state);
+  for (const std::span<const WideEntry> list : job.contents.sorted)
+    DrawWideList(job, mesh, list, true, state, counts);
+  DrawWideList(job, mesh, job.contents.wide, false, state, counts);
+  UpdateLows(state);
+  DrawLists(job, mesh, state, counts);
+  StoreTile(job.view, mesh, state, frame);
+}
+
+inline void DrawTile(const TileJob& job, const MeshTriangles& mesh, Frame& frame) {
   NoTileCounts counts;
-  DrawEntries(view, mesh, triangles, entries, frame, counts);
+  DrawContents(job, mesh, frame, counts);
 }
 
 // The same, counted: out of line, so that it costs the other nothing.
-HWY_NOINLINE inline void CountTile(const TileView& view, const MeshTriangles& mesh,
-                                   const BinnedTriangles& triangles, std::span<const BinEntry> entries,
-                                   Frame& frame, RasterCounts& counts) {
+HWY_NOINLINE inline void CountTile(const TileJob& job, const MeshTriangles& mesh, Frame& frame,
+                                   RasterCounts& counts) {
   TileCounts counter{counts};
-  DrawEntries(view, mesh, triangles, entries, frame, counter);
+  DrawContents(job, mesh, frame, counter);
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

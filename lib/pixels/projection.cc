@@ -33,6 +33,36 @@ double reach(double corner, double du, double dv, int width, int height) {
   return 1.0001 * (std::fabs(corner) + width * std::fabs(du) + height * std::fabs(dv));
 }
 
+// The next float above, or so, of a number that is neither huge nor tiny.
+float rounded_up(double value) { return static_cast<float>(value * (1.0 + 0x1p-22)); }
+
+FloatRows float_rows(const Projection& view, const glm::vec3& eye) {
+  FloatRows rows{};
+  const double size_z = norm_max(view.row_z);
+  rows.usable = view.slack_px < 1.0 && size_z > 0x1p-900 && size_z < 0x1p900 && view.width < (1 << 20) &&
+                view.height < (1 << 20);
+  if (!rows.usable) return rows;
+  const double scale = std::ldexp(1.0, -std::ilogb(size_z));
+  const double ray_depth = scale * view.ray_depth * (1.0 + 0x1p-19);
+  const auto ordinary = [](double size) { return size > 0x1p-30 && size < 0x1p30; };
+  rows.usable = ordinary(scale * norm_max(view.row_x)) && ordinary(scale * norm_max(view.row_y)) &&
+                ray_depth > 0x1p-60 && ray_depth < 0x1p60;
+  if (!rows.usable) return rows;
+  const auto fill = [&](const Vector3& row, double row_error, float to[3], float& error) {
+    to[0] = static_cast<float>(scale * row.x);
+    to[1] = static_cast<float>(scale * row.y);
+    to[2] = static_cast<float>(scale * row.z);
+    error = rounded_up(5.25 * 0x1p-24 * scale * norm_max(row) + 1.001 * scale * row_error);
+  };
+  for (int axis = 0; axis < 3; ++axis) rows.eye[axis] = eye[axis];
+  fill(view.row_x, view.row_error_x, rows.x, rows.error_x);
+  fill(view.row_y, view.row_error_y, rows.y, rows.error_y);
+  fill(view.row_z, view.row_error_z, rows.z, rows.error_z);
+  rows.slack_px = rounded_up(view.slack_px);
+  rows.ray_depth = rounded_up(ray_depth);
+  return rows;
+}
+
 }  // namespace
 
 Projection::Projection(const Camera& camera)
@@ -88,6 +118,7 @@ Projection::Projection(const Camera& camera)
   const bool usable = !exact_only && det > 4.0 * (det_error + shift_z) && shift < 0.25;
   slack_px = usable ? 1.01 * shift + 1e-9 : std::numeric_limits<double>::infinity();
   ray_depth = 1.0001 * (det + det_error + shift_z);
+  rows = float_rows(*this, camera.eye);
 }
 
 }  // namespace plumb::detail

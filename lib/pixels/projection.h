@@ -8,6 +8,19 @@ struct Vector3 {
   double x, y, z;
 };
 
+/// Projection's rows in float, all times one power of two, for boxes of pixels found in float
+/// (pixels/float_bounds-inl.h).
+struct FloatRows {
+  float eye[3];
+  float x[3], y[3], z[3];
+  /// |row.p computed in float from float p - exact| <= error |p|_1.
+  float error_x, error_y, error_z;
+  float slack_px;  ///< Projection's, or a little more
+  float
+      ray_depth;  ///< Projection's times the power of two, with room for the rounding of t and of a division
+  bool usable;    ///< the numbers are such that nothing underflows or overflows
+};
+
 /// A camera as tiles are drawn for it. Notation: the real-valued direction of the point (x, y) of the
 /// frame, with pixel centres at integers, is D(x, y) = c0 + x du + y dv; a pixel's ray is the float
 /// direction d next to it.
@@ -38,6 +51,8 @@ struct Projection {
   double ray_depth;
 
   int width, height;
+
+  FloatRows rows;
 
   explicit Projection(const Camera& camera);
 };

@@ -28,11 +28,9 @@ using SetupVector = hn::Vec<SetupTag>;
 
 constexpr double kSetupU = 0x1p-53;
 constexpr double kDoubleInfinity = std::numeric_limits<double>::infinity();
-constexpr size_t kSetupGroup = 256;  // triangles whose corners stay in the first-level cache
-
 // Corners of triangles that may be seen, coordinate by coordinate, and the pixels they may be seen in.
 struct SetupCandidates {
-  static constexpr size_t kRoom = kSetupGroup + 8;
+  static constexpr size_t kRoom = 40;  // those of two vectors and of a third in part
   alignas(64) float corner[9][kRoom];
   alignas(64) float nearest[kRoom];
   alignas(64) std::int32_t x0[kRoom], y0[kRoom], x1[kRoom], y1[kRoom];
@@ -59,10 +57,10 @@ HWY_INLINE SetupVector Norm1(SetupVector x, SetupVector y, SetupVector z) {
 // - when all lie in front, p's screen point lies in the box of theirs, and 1/t = row_z.d / row_z.p is at
 //   most ray_depth over the least row_z of the vertices.
 
-// The boxes of one vector of triangles, as Candidates has them.
+// The boxes of up to 16 triangles, as SetupCandidates has them.
 struct ScreenBoxes {
-  alignas(64) std::int32_t x0[8], y0[8], x1[8], y1[8];
-  alignas(64) float nearest[8];
+  alignas(64) std::int32_t x0[16], y0[16], x1[16], y1[16];
+  alignas(64) float nearest[16];
 };
 
 // Pixels of the frame, both ends included.

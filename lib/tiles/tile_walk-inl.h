@@ -22,10 +22,11 @@
 #include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "pixels/block_draw-inl.h"
+#include "pixels/candidate_draw-inl.h"
+#include "pixels/float_bounds-inl.h"
 #include "pixels/no_tile_counts.h"
 #include "pixels/screen_bounds-inl.h"
 #include "pixels/tile_state-inl.h"
-#include "pixels/triangle_setup-inl.h"
 #include "tiles/tile_frustum.h"
 #include "tiles/tile_kernel.h"
 #include "tiles/tree_triangles.h"
@@ -79,14 +80,19 @@ HWY_INLINE std::uint32_t MeetChildren(const WideNode<W>& node, const FrameFrustu
   return met;
 }
 
-// Whether one of the triangles whose bit is set may cover the rectangle.
+// Whether one of W triangles, of those whose bit is set, may cover the rectangle.
+template <int W>
 HWY_INLINE bool AnyWide(const ScreenBoxes& boxes, std::uint32_t seen, const PixelRect& rect) {
-  const hn::Rebind<std::int32_t, SetupTag> d;
-  const auto wide = hn::And(hn::And(hn::Eq(hn::Load(d, boxes.x0), hn::Set(d, rect.x0)),
-                                    hn::Eq(hn::Load(d, boxes.x1), hn::Set(d, rect.x1))),
-                            hn::And(hn::Eq(hn::Load(d, boxes.y0), hn::Set(d, rect.y0)),
-                                    hn::Eq(hn::Load(d, boxes.y1), hn::Set(d, rect.y1))));
-  return (MaskBits(d, wide) & seen) != 0;
+  const hn::CappedTag<std::int32_t, W> d;
+  std::uint32_t bits = 0;
+  for (size_t lane = 0; lane < static_cast<size_t>(W); lane += hn::Lanes(d)) {
+    const auto at = [&](const std::int32_t* side, std::int32_t edge)
+                        HWY_ATTR { return hn::Eq(hn::Load(d, side + lane), hn::Set(d, edge)); };
+    const auto wide = hn::And(hn::And(at(boxes.x0, rect.x0), at(boxes.x1, rect.x1)),
+                              hn::And(at(boxes.y0, rect.y0), at(boxes.y1, rect.y1)));
+    bits |= MaskBits(d, wide) << lane;
+  }
+  return (bits & seen) != 0;
 }
 
 struct TileWalkEntry {
@@ -166,13 +172,8 @@ class TileWalk {
   HWY_INLINE float low() const { return std::max(state_.tile_low, 0.0f); }
 
   HWY_INLINE void leaf(std::uint32_t block, std::uint32_t count) {
-    const size_t lanes = std::min(hn::Lanes(SetupTag()), static_cast<size_t>(W));
     for (;; ++block) {
-      const std::uint32_t filled = count < static_cast<std::uint32_t>(W) ? (1u << count) - 1 : (1u << W) - 1;
-      for (size_t lane = 0; lane < static_cast<size_t>(W); lane += lanes) {
-        if (filled >> lane == 0) break;
-        add_candidates(block, lane, filled >> lane);
-      }
+      add_candidates(block, std::min(count, static_cast<std::uint32_t>(W)));
       // Whole vectors, but what may hide the rest is not kept waiting.
       const size_t ready =
           wide_ ? candidates_.count : candidates_.count / hn::Lanes(SetupTag()) * hn::Lanes(SetupTag());
@@ -183,30 +184,21 @@ class TileWalk {
     }
   }
 
-  // Of a block's lanes from `lane` on.
-  HWY_INLINE void add_candidates(std::uint32_t block, size_t lane, std::uint32_t filled) {
-    const SetupTag d;
-    const hn::Rebind<float, SetupTag> df;
+  HWY_INLINE void add_candidates(std::uint32_t block, std::uint32_t count) {
     const TriangleBlock<W>& from = tree_.blocks[block];
     const float* corner[9];
-    alignas(64) float wide[9][8];
-    for (int k = 0; k < 9; ++k) {
-      const float* row = from.vertex[k / 3][k % 3] + lane;
-      corner[k] = row;
-      if (hn::Lanes(d) > static_cast<size_t>(W)) {  // narrower than a vector
-        std::copy_n(row, W, wide[k]);
-        std::fill(wide[k] + W, wide[k] + 8, std::numeric_limits<float>::quiet_NaN());
-        corner[k] = wide[k];
-      }
-    }
+    for (int k = 0; k < 9; ++k) corner[k] = from.vertex[k / 3][k % 3];
     ScreenBoxes boxes;
-    std::uint32_t seen = filled & BoundOnScreen(frustum_.view, rect_, corner, boxes);
-    const auto low = hn::Set(df, state_.tile_low);
-    seen &= ~MaskBits(df, hn::Lt(hn::Load(df, boxes.nearest), low));
+    std::uint32_t seen = BoundTriangles<W>(frustum_.view, rect_, corner, count, boxes);
     if (seen == 0) return;
-    seen = not_yet_added(from.id + lane, seen);
-    wide_ |= AnyWide(boxes, seen, rect_);
-    AddCandidates(corner, boxes, seen, static_cast<size_t>(block) * W + lane, candidates_);
+    const hn::CappedTag<float, W> d;
+    const auto low = hn::Set(d, state_.tile_low);
+    for (size_t lane = 0; lane < static_cast<size_t>(W); lane += hn::Lanes(d))
+      seen &= ~(MaskBits(d, hn::Lt(hn::Load(d, boxes.nearest + lane), low)) << lane);
+    if (seen == 0) return;
+    seen = not_yet_added(from.id, seen);
+    wide_ |= AnyWide<W>(boxes, seen, rect_);
+    AddCandidates(corner, boxes, seen, static_cast<size_t>(block) * W, candidates_);
   }
 
   // Of triangles whose bit is set, those that were not added of late: several leaves may have one
@@ -232,41 +224,10 @@ class TileWalk {
     }
     const SetupTag d;
     for (size_t first = 0; first < count; first += hn::Lanes(d))
-      draw_vector(first, std::min(hn::Lanes(d), count - first));
+      DrawCandidates(frustum_.view, view_, triangles_, candidates_, first,
+                     std::min(hn::Lanes(d), count - first), state_, counts_);
     DropCandidates(count, candidates_);
     UpdateLows(state_);
-  }
-
-  HWY_INLINE void draw_vector(size_t first, size_t count) {
-    const SetupTag d;
-    SetupLanes lanes;
-    std::uint32_t side_open = 0, uncovered = 0;
-    SetUpLanes(frustum_.view, candidates_, first, lanes, side_open, uncovered);
-    PlaceLanes(hn::Set(d, view_.x), hn::Set(d, view_.y), lanes);
-    const std::uint32_t drawn = ((1u << count) - 1) & ~uncovered;
-    // All are stored before any is drawn: what has just been stored by parts is slow to load as a whole.
-    TileTriangle placed[8];
-    for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
-      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      StorePlaced(lanes, i, candidates_, first + i, placed[i]);
-    }
-    for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
-      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      draw(placed[i], (side_open >> i & 1) != 0);
-    }
-  }
-
-  HWY_INLINE void draw(TileTriangle& triangle, bool side_open) {
-    if (HWY_UNLIKELY(side_open)) {
-      DrawBlocks(view_, triangles_, triangle, true, state_, counts_);
-      TurnEdges(triangle);
-      DrawBlocks(view_, triangles_, triangle, true, state_, counts_);
-    } else if (triangle.x1 / kBlockPx - triangle.x0 / kBlockPx < 2 &&
-               triangle.y1 / kBlockPx - triangle.y0 / kBlockPx < 2) {
-      DrawSmall(view_, triangles_, triangle, state_, counts_);
-    } else {
-      DrawBlocks(view_, triangles_, triangle, false, state_, counts_);
-    }
   }
 
   const WideTree<W>& tree_;

@@ -1,0 +1,177 @@
+// Which tiles may see which of a mesh's triangles. Included once per Highway target.
+
+#if defined(PLUMB_RASTER_BINNING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUMB_RASTER_BINNING_INL_H_
+#undef PLUMB_RASTER_BINNING_INL_H_
+#else
+#define PLUMB_RASTER_BINNING_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "hwy/highway.h"
+#include "pixels/float_bounds-inl.h"
+#include "pixels/projection.h"
+#include "pixels/screen_bounds-inl.h"
+#include "pixels/screen_triangle.h"
+#include "pixels/triangle_setup-inl.h"
+#include "plumb/mesh.h"
+#include "raster/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plumb::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Triangles that are fetched at a time.
+constexpr size_t kFetched = 16;
+
+// Their corners, coordinate by coordinate.
+struct FetchedCorners {
+  alignas(64) float corner[9][kFetched];
+};
+
+HWY_INLINE void FetchCorners(MeshView mesh, size_t first, size_t count, FetchedCorners& to) {
+  for (size_t lane = 0; lane < count; ++lane) {
+    const glm::uvec3& c = mesh.triangles[first + lane];
+    const glm::vec3* const vertex[3] = {&mesh.positions[c.x], &mesh.positions[c.y], &mesh.positions[c.z]};
+    for (int v = 0; v < 3; ++v) {
+      to.corner[3 * v][lane] = vertex[v]->x;
+      to.corner[3 * v + 1][lane] = vertex[v]->y;
+      to.corner[3 * v + 2][lane] = vertex[v]->z;
+    }
+  }
+}
+
+// Where the screen says nothing: every finite triangle may be anywhere in the frame.
+HWY_INLINE std::uint32_t BoundNowhere(const Projection& view, const float* const corner[9], size_t count,
+                                      ScreenBoxes& boxes) {
+  std::uint32_t finite = 0;
+  for (size_t i = 0; i < count; ++i) {
+    float total = 0.0f;
+    for (int k = 0; k < 9; ++k) total += corner[k][i] * 0.0f;
+    finite |= std::uint32_t{total == 0.0f} << i;
+    boxes.x0[i] = boxes.y0[i] = 0;
+    boxes.x1[i] = view.width - 1;
+    boxes.y1[i] = view.height - 1;
+    boxes.nearest[i] = std::numeric_limits<float>::infinity();
+  }
+  return finite;
+}
+
+HWY_INLINE void StoreBox(const SetupCandidates& from, size_t i, ScreenTriangle& to) {
+  to.nearest = from.nearest[i];
+  to.index = from.index[i];
+  to.x0 = from.x0[i];
+  to.y0 = from.y0[i];
+  to.x1 = from.x1[i];
+  to.y1 = from.y1[i];
+}
+
+// Nothing is known but the boxes: every pixel in them is decided exactly.
+inline void SetUpExactly(const SetupCandidates& from, std::vector<ScreenTriangle>& to) {
+  for (size_t i = 0; i < from.count; ++i) {
+    ScreenTriangle& triangle = to.emplace_back();
+    std::fill(std::begin(triangle.error), std::end(triangle.error), std::numeric_limits<float>::infinity());
+    StoreBox(from, i, triangle);
+  }
+}
+
+// Sets wide triangles up.
+inline void SetUpWide(const Projection& view, const SetupCandidates& from, std::vector<ScreenTriangle>& to) {
+  if (view.exact_only) {
+    SetUpExactly(from, to);
+    return;
+  }
+  const size_t width = hn::Lanes(SetupTag());
+  SetupLanes lanes;
+  for (size_t first = 0; first < from.count; first += width) {
+    std::uint32_t side_open = 0, uncovered = 0;
+    SetUpLanes(view, from, first, lanes, side_open, uncovered);
+    for (size_t i = first; i < std::min(first + width, from.count); ++i) {
+      const size_t lane = i - first;
+      if ((uncovered >> lane & 1) != 0) continue;
+      ScreenTriangle& triangle = to.emplace_back();
+      for (int k = 0; k < 4; ++k) {
+        triangle.a[k] = lanes.a[k][lane];
+        triangle.b[k] = lanes.b[k][lane];
+        triangle.c[k] = lanes.c[k][lane];
+        triangle.error[k] = lanes.error[k][lane];
+      }
+      triangle.side_open = (side_open >> lane & 1) != 0;
+      StoreBox(from, i, triangle);
+    }
+  }
+}
+
+// Lists a triangle with the tiles of its box, each with its part of it.
+HWY_INLINE void AddToTiles(const ScreenBoxes& boxes, size_t lane, std::uint32_t index, int tile_columns,
+                           TileLists& lists) {
+  const auto clipped = [](int side, int tile) HWY_ATTR {
+    return static_cast<std::uint8_t>(std::clamp(side - tile * kTilePx, 0, kTilePx - 1));
+  };
+  const int x0 = boxes.x0[lane], y0 = boxes.y0[lane], x1 = boxes.x1[lane], y1 = boxes.y1[lane];
+  for (int row = y0 / kTilePx; row <= y1 / kTilePx; ++row) {
+    for (int column = x0 / kTilePx; column <= x1 / kTilePx; ++column) {
+      lists.add(static_cast<std::uint32_t>(row * tile_columns + column),
+                {index, boxes.nearest[lane], clipped(x0, column), clipped(y0, row), clipped(x1, column),
+                 clipped(y1, row)});
+    }
+  }
+}
+
+// A bit for each triangle whose box lies within two tiles by two.
+HWY_INLINE std::uint32_t NarrowBits(const ScreenBoxes& boxes) {
+  const hn::CappedTag<std::int32_t, kFetched> d;
+  static_assert(kTilePx == 32);
+  std::uint32_t bits = 0;
+  for (size_t lane = 0; lane < kFetched; lane += hn::Lanes(d)) {
+    const auto tile = [&](const std::int32_t* side)
+                          HWY_ATTR { return hn::ShiftRight<5>(hn::Load(d, side + lane)); };
+    const auto columns = hn::Sub(tile(boxes.x1), tile(boxes.x0));
+    const auto rows = hn::Sub(tile(boxes.y1), tile(boxes.y0));
+    bits |= MaskBits(d, hn::Lt(hn::Max(columns, rows), hn::Set(d, 2))) << lane;
+  }
+  return bits;
+}
+
+inline void BinTriangles(const Projection& view, MeshView mesh, size_t first, size_t last,
+                         BinnedTriangles& to) {
+  const bool bounded = view.slack_px < kDoubleInfinity;
+  const int tile_columns = (view.width - 1) / kTilePx + 1;
+  FetchedCorners fetched{};
+  const float* corner[9];
+  for (int k = 0; k < 9; ++k) corner[k] = fetched.corner[k];
+  ScreenBoxes boxes{};
+  SetupCandidates wide;
+  wide.count = 0;
+  for (size_t i = first; i < last; i += kFetched) {
+    const size_t count = std::min(last - i, kFetched);
+    FetchCorners(mesh, i, count, fetched);
+    const std::uint32_t seen = bounded
+                                   ? BoundTriangles<kFetched>(view, WholeFrame(view), corner, count, boxes)
+                                   : BoundNowhere(view, corner, count, boxes);
+    if (seen == 0) continue;
+    const std::uint32_t narrow = view.exact_only ? 0 : NarrowBits(boxes);
+    for (std::uint32_t bits = seen & narrow; bits != 0; bits &= bits - 1) {
+      const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      AddToTiles(boxes, lane, static_cast<std::uint32_t>(i + lane), tile_columns, to.lists);
+    }
+    AddCandidates(corner, boxes, seen & ~narrow, i, wide);
+    if (wide.count >= kFetched) {
+      SetUpWide(view, wide, to.wide);
+      wide.count = 0;
+    }
+  }
+  SetUpWide(view, wide, to.wide);
+}
+
+}  // namespace plumb::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
