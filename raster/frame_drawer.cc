@@ -80,7 +80,7 @@ void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t t
   const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
   const TileView view{camera_, projection_.exact_only, static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
-  const TileJob job{projection_, view, tile, contents};
+  const TileJob job{projection_, view, contents};
   const MeshTriangles triangles{mesh, first_id};
   if (counts_ != nullptr) {
     kernels_.count_tile(job, triangles, frame, *counts_);

@@ -22,20 +22,25 @@ struct BinnedTriangles {
   std::vector<ScreenTriangle> wide;
 };
 
+/// Entries side by side in a tile's list, and the greatest `nearest` of them.
+struct EntryRun {
+  float nearest;
+  std::span<const TileEntry> entries;
+};
+
 /// What a tile may see, in the order in which it is drawn.
 struct TileContents {
   std::vector<std::span<const WideEntry>> sorted;  ///< each from front to back
   std::vector<WideEntry> wide;                     ///< roughly so
-  std::vector<const TileLists*> lists;
+  std::vector<EntryRun> runs;                      ///< from front to back
 
-  bool empty() const { return sorted.empty() && wide.empty() && lists.empty(); }
+  bool empty() const { return sorted.empty() && wide.empty() && runs.empty(); }
 };
 
 /// A tile on the way to the frame.
 struct TileJob {
   const Projection& projection;
   const TileView& view;
-  std::size_t tile;  ///< its number in the lists
   const TileContents& contents;
 };
 

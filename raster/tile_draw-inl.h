@@ -37,7 +37,9 @@ HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const 
     return;
   TileTriangle placed;
   PlaceTriangle(triangle, view.x, view.y, placed);
-  if (!OutsideTile(placed)) DrawBlocks(view, mesh, placed, triangle.side_open, state, counts);
+  if (HWY_LIKELY(!triangle.side_open) && OutsideTile(placed)) return;
+  placed.place = AddDrawn(view, mesh, triangle.index, state);
+  DrawBlocks(view, mesh, placed, triangle.side_open, state, counts);
   if (HWY_LIKELY(!triangle.side_open)) return;
   TurnEdges(placed);
   DrawBlocks(view, mesh, placed, true, state, counts);
@@ -114,17 +116,19 @@ HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileSta
     candidates.count = 0;
     UpdateLows(state);
   };
-  for (const TileLists* const lists : job.contents.lists) {
-    lists->visit(job.tile, [&](std::span<const TileEntry> run) HWY_ATTR {
-      FetchRun(mesh.mesh, run);
-      for (const TileEntry& entry : run) {
-        const bool hidden = Hidden(entry, state);
-        counts.tile(hidden);
-        if (hidden) continue;
-        AddEntry(job.view, mesh.mesh, entry, candidates);
-        if (candidates.count == hn::Lanes(SetupTag())) draw();
-      }
-    });
+  for (const EntryRun& run : job.contents.runs) {
+    if (run.nearest < state.tile_low) {  // and all that follow
+      counts.tile(true);
+      break;
+    }
+    FetchRun(mesh.mesh, run.entries);
+    for (const TileEntry& entry : run.entries) {
+      const bool hidden = Hidden(entry, state);
+      counts.tile(hidden);
+      if (hidden) continue;
+      AddEntry(job.view, mesh.mesh, entry, candidates);
+      if (candidates.count == hn::Lanes(SetupTag())) draw();
+    }
   }
   if (candidates.count != 0) draw();
 }

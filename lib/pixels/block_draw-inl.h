@@ -29,17 +29,16 @@ template <class Triangles>
 inline void DecideDepths(const TileView& view, const Triangles& triangles, TileState& state, int block,
                          std::uint32_t triangle, std::uint32_t pixels) {
   const int first = block * kBlockPixels;
-  KnownPlane plane;
-  LearnBlock(view, triangles, state, block, pixels, plane);
+  LearnBlock(view, triangles, state, block, pixels);
+  LearnPlane(view, triangles, state, triangle);
   HWY_ALIGN float t[kBlockPixels];
-  plane.set(view.camera.eye, triangles.corners(triangle));
-  const std::uint32_t certain = BlockDepthsOf(state, block, plane, t);
-  const std::uint32_t id = triangles.id(triangle);
+  const std::uint32_t certain = BlockDepthsOf(state, block, triangle, t);
+  const std::uint32_t id = state.drawn.id[triangle];
   for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
     const int offset = first + i;
     if ((certain >> i & 1) == 0) {
-      decide_pixel(view, state, offset, Indexed(triangles, triangle));
+      decide_pixel(view, state, offset, Placed(triangles, state, triangle));
     } else if (t[i] < state.t[offset] || (t[i] == state.t[offset] && id < state.id[offset])) {
       state.winner[offset] = state.known[offset] = triangle;
       state.t[offset] = t[i];
@@ -53,11 +52,10 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
 template <class Triangles>
 inline void DecidePixels(const TileView& view, const Triangles& triangles, TileState& state, int block,
                          std::uint32_t triangle, std::uint32_t pixels) {
-  KnownPlane plane;
-  LearnBlock(view, triangles, state, block, pixels, plane);
+  LearnBlock(view, triangles, state, block, pixels);
   for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-    decide_pixel(view, state, block * kBlockPixels + i, Indexed(triangles, triangle));
+    decide_pixel(view, state, block * kBlockPixels + i, Placed(triangles, state, triangle));
   }
   SetBounds(state, block, pixels);
 }
@@ -113,7 +111,7 @@ HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, cons
     const auto won = hn::And(covered, hn::Gt(low, hn::Load(d, state.inverse_high + offset)));
     hn::BlendedStore(low, won, d, state.inverse_low + offset);
     hn::BlendedStore(high, won, d, state.inverse_high + offset);
-    hn::BlendedStore(hn::Set(du, triangle.index), hn::RebindMask(du, won), du, state.winner + offset);
+    hn::BlendedStore(hn::Set(du, triangle.place), hn::RebindMask(du, won), du, state.winner + offset);
     won_bits |= MaskBits(d, won) << lane;
     depth_open |= MaskBits(d, hn::AndNot(won, covered)) << lane;
     if constexpr (!kFull) edge_open |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
@@ -125,8 +123,8 @@ HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, cons
     depth_open = 0;
   }
   counts.open_pixels(depth_open | edge_open);
-  if (depth_open != 0) DecideDepths(view, triangles, state, block, triangle.index, depth_open);
-  if (edge_open != 0) DecidePixels(view, triangles, state, block, triangle.index, edge_open);
+  if (depth_open != 0) DecideDepths(view, triangles, state, block, triangle.place, depth_open);
+  if (edge_open != 0) DecidePixels(view, triangles, state, block, triangle.place, edge_open);
 }
 
 // The blocks of a tile that hold pixels of the triangle's box, one bit each.

@@ -38,8 +38,7 @@ HWY_INLINE void DrawPlaced(const TileView& view, const Triangles& triangles, Til
 }
 
 // Draws a vector's worth of candidates from `first` on, or the `count` that are left. Their boxes lie in the
-// tile. Nothing is known of their planes where directions may underflow or overflow (Projection::exact_only):
-// then every pixel of a box is decided exactly.
+// tile.
 template <class Triangles, class Counts>
 HWY_INLINE void DrawCandidates(const Projection& projection, const TileView& view, const Triangles& triangles,
                                const SetupCandidates& candidates, size_t first, size_t count,
@@ -48,8 +47,9 @@ HWY_INLINE void DrawCandidates(const Projection& projection, const TileView& vie
   SetupLanes lanes;
   std::uint32_t side_open = 0, uncovered = 0;
   SetUpLanes(projection, candidates, first, lanes, side_open, uncovered);
-  PlaceLanes(hn::Set(d, view.x), hn::Set(d, view.y), lanes);
   const std::uint32_t drawn = ((1u << count) - 1) & ~uncovered;
+  if (drawn == 0) return;
+  PlaceLanes(hn::Set(d, view.x), hn::Set(d, view.y), lanes);
   // All are stored before any is drawn: what has just been stored by parts is slow to load as a whole.
   TileTriangle placed[8];
   for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
@@ -58,6 +58,7 @@ HWY_INLINE void DrawCandidates(const Projection& projection, const TileView& vie
   }
   for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    placed[i].place = AddDrawn(view, triangles, candidates.index[first + i], state);
     DrawPlaced(view, triangles, placed[i], (side_open >> i & 1) != 0, state, counts);
   }
 }

@@ -32,9 +32,8 @@ struct alignas(16) ScreenTriangle {
 struct alignas(16) TileTriangle {
   float a[4], b[4], c[4], error[4];
   float nearest;
-  std::uint32_t index;
-  std::uint8_t x0, y0, x1, y1;  ///< In the tile.
-  std::uint32_t tile;           ///< Which one, counted row by row.
+  std::uint32_t place;          ///< in TileState::drawn
+  std::uint8_t x0, y0, x1, y1;  ///< in the tile
 };
 
 }  // namespace plumb::detail

@@ -97,7 +97,6 @@ HWY_INLINE void PlaceTriangle(const ScreenTriangle& from, int tile_x, int tile_y
     hn::Store(error, df, to.error + lane);
   }
   to.nearest = from.nearest;
-  to.index = from.index;
   to.x0 = static_cast<std::uint8_t>(std::max(from.x0 - tile_x, 0));
   to.y0 = static_cast<std::uint8_t>(std::max(from.y0 - tile_y, 0));
   to.x1 = static_cast<std::uint8_t>(std::min(from.x1 - tile_x, kTilePx - 1));

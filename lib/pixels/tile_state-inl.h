@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "base/mask_bits-inl.h"
@@ -153,6 +154,7 @@ inline void LoadTile(const TileView& view, const Frame& frame, TileState& state)
     hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
   }
   state.changed = ~std::uint64_t{0};
+  state.drawn.count = 0;
   UpdateLows(state);
 }
 
@@ -178,6 +180,7 @@ inline void StartTile(const TileView& view, TileState& state) {
     }
   }
   state.changed = ~std::uint64_t{0};
+  state.drawn.count = 0;
   UpdateLows(state);
 }
 
@@ -186,23 +189,10 @@ inline void StartTile(const TileView& view, TileState& state) {
 //     id(index)         their ids
 
 template <class Triangles>
-HWY_INLINE IndexedTriangle Indexed(const Triangles& triangles, std::uint32_t index) {
-  return {index, triangles.id(index), triangles.corners(index)};
+HWY_INLINE PlacedTriangle Placed(const Triangles& triangles, const TileState& state, std::uint32_t place) {
+  const std::uint32_t index = state.drawn.index[place];
+  return {place, triangles.id(index), triangles.corners(index)};
 }
-
-// The corners of a block's triangles, each pixel its own.
-struct BlockCorners {
-  alignas(64) float corner[9][kBlockPixels];
-
-  void set(int pixel, const Triangle& triangle) {
-    const glm::vec3 vertex[3] = {triangle.v0, triangle.v1, triangle.v2};
-    for (int v = 0; v < 3; ++v) {
-      corner[3 * v][pixel] = vertex[v].x;
-      corner[3 * v + 1][pixel] = vertex[v].y;
-      corner[3 * v + 2][pixel] = vertex[v].z;
-    }
-  }
-};
 
 // One component of the directions of a block's pixels from `lane` on.
 template <class D>
@@ -212,38 +202,18 @@ HWY_INLINE hn::Vec<D> BlockDirections(D d, const TileState& state, int block, si
   return Direction(d, column, row);
 }
 
-// What exact/depth-inl.h's TrianglePlane says of one triangle.
-struct KnownPlane {
-  std::uint32_t index = TileState::kEarlier;
-  double nx = 0, ny = 0, nz = 0, t_num = 0, t_error = 0, den_factor = 0;
-
-  HWY_INLINE void set(const glm::vec3& eye, const Triangle& corners) {
-    const hn::CappedTag<double, 1> d;
-    const glm::vec3* const vertex[3] = {&corners.v0, &corners.v1, &corners.v2};
-    hn::Vec<decltype(d)> x, y, z, t, te, df;
-    TrianglePlane(
-        d, [&](int k) HWY_ATTR { return hn::Set(d, double{eye[k]}); },
-        [&](int k) HWY_ATTR { return hn::Set(d, double{(*vertex[k / 3])[k % 3]}); }, x, y, z, t, te, df);
-    nx = hn::GetLane(x);
-    ny = hn::GetLane(y);
-    nz = hn::GetLane(z);
-    t_num = hn::GetLane(t);
-    t_error = hn::GetLane(te);
-    den_factor = hn::GetLane(df);
-  }
-};
-
-// The depths of one triangle at a block's pixels; a bit where it is certain.
-HWY_INLINE std::uint32_t BlockDepthsOf(const TileState& state, int block, const KnownPlane& plane, float* t) {
+// The depths that a block's pixels see, `plane(d, k, lane)` being DrawnTriangles' planes of those from `lane`
+// on; a bit where it is certain.
+template <class Plane>
+HWY_INLINE std::uint32_t BlockDepths(const TileState& state, int block, const Plane& plane, float* t) {
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto ray = [&](int axis) HWY_ATTR { return BlockDirections(d, state, block, lane, axis); };
+    const auto of = [&](int k) HWY_ATTR { return plane(d, k, lane); };
     auto quotient = hn::Zero(d), slack = quotient;
-    PlaneQuotients(d, ray(0), ray(1), ray(2), hn::Set(d, plane.nx), hn::Set(d, plane.ny),
-                   hn::Set(d, plane.nz), hn::Set(d, plane.t_num), hn::Set(d, plane.t_error),
-                   hn::Set(d, plane.den_factor), quotient, slack);
+    PlaneQuotients(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), quotient, slack);
     auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
     RoundQuotients(d, quotient, slack, depth, certain);
@@ -253,88 +223,174 @@ HWY_INLINE std::uint32_t BlockDepthsOf(const TileState& state, int block, const 
   return bits;
 }
 
-// Those of each pixel's own triangle, for pixels whose bit is set; `sample` is one of them.
-template <class Triangles>
-inline std::uint32_t BlockDepthsOfEach(const TileView& view, const Triangles& triangles,
-                                       const TileState& state, int block, std::uint32_t pixels,
-                                       std::uint32_t sample, float* t) {
-  const std::uint32_t* winner = state.winner + block * kBlockPixels;
-  BlockCorners corners;
-  for (int i = 0; i < kBlockPixels; ++i)
-    corners.set(i, triangles.corners((pixels >> i & 1) != 0 ? winner[i] : sample));
-  const hn::CappedTag<double, 8> d;
-  const hn::Rebind<float, decltype(d)> df;
-  std::uint32_t bits = 0;
-  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto ray = [&](int k) HWY_ATTR {
-      return k < 3 ? hn::Set(d, double{view.camera.eye[k]}) : BlockDirections(d, state, block, lane, k - 3);
-    };
-    auto depth = hn::Zero(df);
-    auto certain = hn::FirstN(df, 0);
-    TriangleDepths(
-        d, ray, [&](int k) HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corners.corner[k] + lane)); },
-        depth, certain);
-    hn::Store(depth, df, t + lane);
-    bits |= MaskBits(df, certain) << lane;
-  }
-  return bits;
+// Of one triangle.
+HWY_INLINE std::uint32_t BlockDepthsOf(const TileState& state, int block, std::uint32_t place, float* t) {
+  return BlockDepths(
+      state, block, [&](auto d, int k, size_t) HWY_ATTR { return hn::Set(d, state.drawn.plane[k][place]); },
+      t);
 }
 
-// From so many of a block's pixels on, one triangle's are computed by themselves.
-constexpr size_t kManyOfBlock = 4;
+// Of each pixel's own triangle, whose places are given.
+HWY_INLINE std::uint32_t BlockDepthsOfEach(const TileState& state, int block, const std::uint32_t* place,
+                                           float* t) {
+  return BlockDepths(
+      state, block,
+      [&](auto d, int k, size_t lane) HWY_ATTR {
+        const hn::Rebind<std::int32_t, decltype(d)> d32;
+        const hn::RebindToSigned<decltype(d)> d64;
+        const auto index = hn::Load(d32, reinterpret_cast<const std::int32_t*>(place) + lane);
+        return hn::GatherIndex(d, state.drawn.plane[k], hn::PromoteTo(d64, index));
+      },
+      t);
+}
 
-// Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
-// `plane` is kept from call to call: neighbouring blocks mostly have the same winner.
+// Computes what gives exact depths of so many drawn triangles, whose places are given.
 template <class Triangles>
-inline void LearnBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
-                       std::uint32_t pixels, KnownPlane& plane) {
+inline void PreparePlanes(const TileView& view, const Triangles& triangles, const std::uint32_t* place,
+                          std::size_t count, DrawnTriangles& drawn) {
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> df;
+  alignas(64) float corner[9][8] = {};
+  alignas(64) double plane[6][8];
+  for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
+    const std::size_t now = std::min(hn::Lanes(d), count - first);
+    for (std::size_t i = 0; i < now; ++i) {
+      const Triangle corners = triangles.corners(drawn.index[place[first + i]]);
+      const glm::vec3* const vertex[3] = {&corners.v0, &corners.v1, &corners.v2};
+      for (int k = 0; k < 9; ++k) corner[k][i] = (*vertex[k / 3])[k % 3];
+    }
+    hn::Vec<decltype(d)> nx, ny, nz, t_num, t_error, den_factor;
+    TrianglePlane(
+        d, [&](int k) HWY_ATTR { return hn::Set(d, double{view.camera.eye[k]}); },
+        [&](int k) HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corner[k])); }, nx, ny, nz, t_num, t_error,
+        den_factor);
+    hn::Store(nx, d, plane[0]);
+    hn::Store(ny, d, plane[1]);
+    hn::Store(nz, d, plane[2]);
+    hn::Store(t_num, d, plane[3]);
+    hn::Store(t_error, d, plane[4]);
+    hn::Store(den_factor, d, plane[5]);
+    for (std::size_t i = 0; i < now; ++i) {
+      const std::uint32_t to = place[first + i];
+      for (int k = 0; k < 6; ++k) drawn.plane[k][to] = plane[k][i];
+      drawn.id[to] = triangles.id(drawn.index[to]);
+      drawn.ready[to] = true;
+    }
+  }
+}
+
+// The pixels of a block whose winner's exact answer is still to be computed, a bit each.
+HWY_INLINE std::uint32_t UnknownBits(const TileState& state, int block) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
-  const hn::RebindToFloat<decltype(d)> df;
-  const std::uint32_t* winner = state.winner + first;
   std::uint32_t unknown = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto known = hn::Load(d, state.known + first + lane);
-    unknown |= MaskBits(d, hn::Ne(hn::Load(d, winner + lane), known)) << lane;
+    unknown |= MaskBits(d, hn::Ne(hn::Load(d, state.winner + first + lane), known)) << lane;
   }
-  unknown &= pixels;
+  return unknown;
+}
+
+// Adds the winners of a block's pixels whose bit is set to a list, but those that are ready or listed: all
+// that are listed count as ready.
+HWY_INLINE void ListWinners(TileState& state, int block, std::uint32_t pixels, std::uint32_t* place,
+                            std::size_t& count) {
+  const std::uint32_t* winner = state.winner + block * kBlockPixels;
+  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
+    const std::uint32_t own = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)];
+    if (state.drawn.ready[own]) continue;
+    state.drawn.ready[own] = true;
+    place[count++] = own;
+  }
+}
+
+// Computes the exact answer of those of a block's pixels whose bit is set; their winners' planes are ready.
+template <class Triangles>
+inline void SettleBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
+                        std::uint32_t unknown) {
+  const size_t first = static_cast<size_t>(block) * kBlockPixels;
+  const hn::CappedTag<std::uint32_t, 16> d;
+  const hn::RebindToFloat<decltype(d)> df;
+  const hn::RebindToSigned<decltype(d)> di;
+  const std::uint32_t* winner = state.winner + first;
+  // Whoever is not asked is taken for one that is.
+  const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
+  HWY_ALIGN std::uint32_t place[kBlockPixels];
   HWY_ALIGN float depth[kBlockPixels];
-  // Triangle by triangle while one has many of the pixels, then each pixel's own.
-  while (unknown != 0) {
-    const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
-    std::uint32_t same = 0;
-    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
-      same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
-    same &= unknown;
-    std::uint32_t now = unknown, certain = 0;
-    if (same == unknown || hwy::PopCount(same) >= kManyOfBlock) {
-      now = same;
-      if (plane.index != sample) {
-        plane.set(view.camera.eye, triangles.corners(sample));
-        plane.index = sample;
-      }
-      certain = now & BlockDepthsOf(state, block, plane, depth);
-      const auto id = hn::Set(d, triangles.id(sample));
-      for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
-        hn::BlendedStore(id, MaskOfBits(d, certain >> lane), d, state.id + first + lane);
-    } else {
-      certain = now & BlockDepthsOfEach(view, triangles, state, block, now, sample, depth);
-      for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
-        const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-        state.id[first + i] = triangles.id(winner[i]);
-      }
-    }
-    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-      const auto mask = MaskOfBits(d, certain >> lane);
-      hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
-      hn::BlendedStore(hn::Load(d, winner + lane), mask, d, state.known + first + lane);
-    }
-    for (std::uint32_t bits = now & ~certain; bits != 0; bits &= bits - 1) {
-      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      learn_pixel(view, state, static_cast<int>(first + i), Indexed(triangles, winner[i]));
-    }
-    unknown &= ~now;
+  std::uint32_t others = 0;
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto asked = MaskOfBits(d, unknown >> lane);
+    const auto own = hn::IfThenElse(asked, hn::Load(d, winner + lane), hn::Set(d, sample));
+    hn::Store(own, d, place + lane);
+    others |= MaskBits(d, hn::Ne(own, hn::Set(d, sample))) << lane;
   }
+  const std::uint32_t certain = unknown & (others == 0 ? BlockDepthsOf(state, block, sample, depth)
+                                                       : BlockDepthsOfEach(state, block, place, depth));
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto mask = MaskOfBits(d, certain >> lane);
+    const auto own = hn::Load(d, place + lane);
+    const auto id = hn::GatherIndex(d, state.drawn.id, hn::BitCast(di, own));
+    hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
+    hn::BlendedStore(id, mask, d, state.id + first + lane);
+    hn::BlendedStore(own, mask, d, state.known + first + lane);
+  }
+  for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    learn_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, winner[i]));
+  }
+}
+
+// Computes the exact answer of those of a block's pixels whose bit is set and whose winner is not known.
+template <class Triangles>
+inline void LearnBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
+                       std::uint32_t pixels) {
+  const std::uint32_t unknown = UnknownBits(state, block) & pixels;
+  if (unknown == 0) return;
+  std::uint32_t place[kBlockPixels];
+  std::size_t count = 0;
+  ListWinners(state, block, unknown, place, count);
+  PreparePlanes(view, triangles, place, count, state.drawn);
+  SettleBlock(view, triangles, state, block, unknown);
+}
+
+// Makes a drawn triangle's plane ready.
+template <class Triangles>
+HWY_INLINE void LearnPlane(const TileView& view, const Triangles& triangles, TileState& state,
+                           std::uint32_t place) {
+  if (!state.drawn.ready[place]) PreparePlanes(view, triangles, &place, 1, state.drawn);
+}
+
+// Computes the exact answer of every pixel.
+template <class Triangles>
+inline void LearnTile(const TileView& view, const Triangles& triangles, TileState& state) {
+  constexpr int kBlocks = kTileBlocks * kTileBlocks;
+  std::uint32_t unknown[kBlocks];
+  std::uint32_t place[DrawnTriangles::kRoom];
+  std::size_t count = 0;
+  for (int block = 0; block < kBlocks; ++block) {
+    unknown[block] = UnknownBits(state, block);
+    ListWinners(state, block, unknown[block], place, count);
+  }
+  PreparePlanes(view, triangles, place, count, state.drawn);
+  for (int block = 0; block < kBlocks; ++block) {
+    if (unknown[block] != 0) SettleBlock(view, triangles, state, block, unknown[block]);
+  }
+}
+
+// The place of one more drawn triangle.
+template <class Triangles>
+HWY_INLINE std::uint32_t AddDrawn(const TileView& view, const Triangles& triangles, std::uint32_t index,
+                                  TileState& state) {
+  DrawnTriangles& drawn = state.drawn;
+  if (HWY_UNLIKELY(drawn.count == DrawnTriangles::kRoom)) {
+    LearnTile(view, triangles, state);
+    std::fill(std::begin(state.winner), std::end(state.winner), TileState::kEarlier);
+    std::fill(std::begin(state.known), std::end(state.known), TileState::kEarlier);
+    drawn.count = 0;
+  }
+  drawn.index[drawn.count] = index;
+  drawn.ready[drawn.count] = false;
+  return static_cast<std::uint32_t>(drawn.count++);
 }
 
 // Gives the frame what a tile sees that nothing was drawn into.
@@ -352,9 +408,7 @@ inline void ClearTile(const TileView& view, Frame& frame) {
 // Gives the frame what the tile won.
 template <class Triangles>
 inline void StoreTile(const TileView& view, const Triangles& triangles, TileState& state, Frame& frame) {
-  KnownPlane plane;
-  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block)
-    LearnBlock(view, triangles, state, block, 0xffffu, plane);
+  LearnTile(view, triangles, state);
   ForEachRun(view, [&](size_t pixel, int offset, int pixels) HWY_ATTR {
     CopyRun(frame.depth.data() + pixel, state.t + offset, pixels);
     CopyRun(frame.id.data() + pixel, state.id + offset, pixels);

@@ -11,13 +11,13 @@ glm::vec3 direction(const TileView& view, int offset) {
 
 }  // namespace
 
-void learn_pixel(const TileView& view, TileState& state, int offset, const IndexedTriangle& winner) {
-  state.known[offset] = winner.index;
+void learn_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& winner) {
+  state.known[offset] = winner.place;
   state.t[offset] = line_depth(view.camera.eye, direction(view, offset), winner.corners);
   state.id[offset] = winner.id;
 }
 
-bool decide_pixel(const TileView& view, TileState& state, int offset, const IndexedTriangle& triangle) {
+bool decide_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& triangle) {
   if (!(state.t[offset] > 0.0f)) return false;  // outside the frame, or nothing can be nearer
   Ray ray;
   ray.origin = view.camera.eye;
@@ -26,7 +26,7 @@ bool decide_pixel(const TileView& view, TileState& state, int offset, const Inde
   float t = 0.0f;
   if (!line_hit(ray.origin, ray.direction, triangle.corners, t) || !depth_counts(ray, t)) return false;
   if (!hit_before(t, triangle.id, {state.t[offset], state.id[offset]})) return false;
-  state.winner[offset] = state.known[offset] = triangle.index;
+  state.winner[offset] = state.known[offset] = triangle.place;
   state.t[offset] = t;
   state.id[offset] = triangle.id;
   return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "exact/intersect.h"
@@ -15,11 +16,23 @@ struct TileView {
   int x, y;         ///< of the tile's upper left pixel
 };
 
+/// The triangles drawn into a tile of late; pixels refer to them by their place here. What gives a triangle's
+/// exact depths is computed when first asked for: most are never seen.
+struct DrawnTriangles {
+  static constexpr std::size_t kRoom = 1024;
+
+  std::uint32_t index[kRoom];          ///< among the triangles that the tile is drawn from
+  bool ready[kRoom];                   ///< the following is computed
+  alignas(64) double plane[6][kRoom];  ///< N, T, T's error, den's factor: exact/depth-inl.h's TrianglePlane
+  alignas(64) std::uint32_t id[kRoom];
+  std::size_t count;
+};
+
 /// A tile while triangles are drawn into it, pixels ordered as pixels/tile.h says. Each pixel's nearest
 /// triangle so far has bounds of 1/t; its exact t is computed only where bounds overlap, and once at the
 /// end for each pixel that a triangle won.
 struct TileState {
-  /// No triangle of this call: the pixel's answer is still what the frame held.
+  /// None of `drawn`: the pixel's answer is t and id, as the frame held them or as they were settled since.
   static constexpr std::uint32_t kEarlier = 0xffffffffu;
   /// Below this 1/t a hit's t might round to infinity.
   static constexpr float kLeastInverse = 0x1p-126f;
@@ -29,7 +42,7 @@ struct TileState {
   /// every certain hit replaces it.
   alignas(64) float inverse_low[kTilePixels];
   alignas(64) float inverse_high[kTilePixels];
-  /// That triangle's index among those that the tile is drawn from, or kEarlier.
+  /// That triangle's place in `drawn`, or kEarlier.
   alignas(64) std::uint32_t winner[kTilePixels];
   /// Whose exact answer (t, id) is; where that is not `winner`, the answer is still to be computed.
   alignas(64) std::uint32_t known[kTilePixels];
@@ -45,19 +58,20 @@ struct TileState {
   alignas(64) double direction_y[3][kTileBlocks * kBlockPixels];
   /// Blocks whose pixels' bounds have changed since block_low was computed, a bit each.
   std::uint64_t changed;
+  DrawnTriangles drawn;
 };
 
-/// A triangle as the exact arithmetic takes it.
-struct IndexedTriangle {
-  std::uint32_t index, id;
+/// A triangle as the exact arithmetic takes it, with its place in TileState::drawn.
+struct PlacedTriangle {
+  std::uint32_t place, id;
   Triangle corners;
 };
 
 /// Computes (t, id) of the pixel's winner, which covers it for certain.
-void learn_pixel(const TileView& view, TileState& state, int offset, const IndexedTriangle& winner);
+void learn_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& winner);
 
 /// Decides whether the triangle wins the pixel, whose winner must be known. The bounds of 1/t are left
 /// to the caller. True when it does.
-bool decide_pixel(const TileView& view, TileState& state, int offset, const IndexedTriangle& triangle);
+bool decide_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& triangle);
 
 }  // namespace plumb::detail

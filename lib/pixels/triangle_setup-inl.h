@@ -14,6 +14,7 @@
 
 #include "base/mask_bits-inl.h"
 #include "base/round-inl.h"
+#include "exact/depth-inl.h"
 #include "hwy/highway.h"
 #include "pixels/projection.h"
 #include "pixels/screen_bounds-inl.h"
@@ -88,8 +89,8 @@ HWY_INLINE void SetUpEdge(const Projection& view, int edge, SetupLanes& lanes) {
 // The depth's plane. Two words of bits: triangles whose side is open, and those of which no pixel sees
 // anything, two vertices being equal (one edge function is exactly zero then, and its displaced sign too).
 //
-// The values and bounds of T = N.a and den = N.d are those of exact/intersect.cc's double stage: they
-// hold with and without fused operations. 1/t = den / T as a plane: 4 u for N, 3 u for the dot product, 2 u
+// The values and bounds of T = N.a and den = N.d are those of exact/depth-inl.h: they hold with and without
+// fused operations. 1/t = den / T as a plane: 4 u for N, 3 u for the dot product, 2 u
 // for scaling, 4 u for c + a x + b y, each times G L^2 (20 below), and the rounding of the ray; and T's error
 // and the division, relative.
 HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const float* const corner[9],
@@ -98,25 +99,17 @@ HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const floa
   const hn::Rebind<float, SetupTag> df;
   const auto load = [&](int v, int axis)
                         HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corner[3 * v + axis])); };
-  const SetupVector v0x = load(0, 0), v0y = load(0, 1), v0z = load(0, 2);
-  const SetupVector v1x = load(1, 0), v1y = load(1, 1), v1z = load(1, 2);
-  const SetupVector v2x = load(2, 0), v2y = load(2, 1), v2z = load(2, 2);
-  const SetupVector e1x = hn::Sub(v1x, v0x), e1y = hn::Sub(v1y, v0y), e1z = hn::Sub(v1z, v0z);
-  const SetupVector e2x = hn::Sub(v2x, v0x), e2y = hn::Sub(v2y, v0y), e2z = hn::Sub(v2z, v0z);
-  const SetupVector size1 = Norm1(e1x, e1y, e1z), size2 = Norm1(e2x, e2y, e2z);
-  const SetupVector size3 = Norm1(hn::Sub(v2x, v1x), hn::Sub(v2y, v1y), hn::Sub(v2z, v1z));
-  flat = MaskBits(d, hn::Eq(hn::Min(size1, hn::Min(size2, size3)), hn::Zero(d)));
+  const auto side = [&](int from, int to, int axis)
+                        HWY_ATTR { return hn::Sub(load(to, axis), load(from, axis)); };
+  const auto size = [&](int from, int to)
+                        HWY_ATTR { return Norm1(side(from, to, 0), side(from, to, 1), side(from, to, 2)); };
+  flat = MaskBits(d, hn::Eq(hn::Min(size(0, 1), hn::Min(size(0, 2), size(1, 2))), hn::Zero(d)));
 
-  const SetupVector nx = hn::MulSub(e1y, e2z, hn::Mul(e1z, e2y));
-  const SetupVector ny = hn::MulSub(e1z, e2x, hn::Mul(e1x, e2z));
-  const SetupVector nz = hn::MulSub(e1x, e2y, hn::Mul(e1y, e2x));
-  const SetupVector ax = hn::Load(d, lanes.corner[0]), ay = hn::Load(d, lanes.corner[1]),
-                    az = hn::Load(d, lanes.corner[2]);
-  const SetupVector reach = hn::Max(hn::Abs(ax), hn::Max(hn::Abs(ay), hn::Abs(az)));
-  const SetupVector extent = hn::Max(size1, size2);
-  const SetupVector extent2 = hn::Mul(extent, extent);
-  const SetupVector t_num = hn::MulAdd(nz, az, hn::MulAdd(ny, ay, hn::Mul(nx, ax)));
-  const SetupVector t_error = hn::Mul(hn::Mul(reach, extent2), hn::Set(d, 8.2 * kSetupU));
+  const double eye[3] = {view.eye.x, view.eye.y, view.eye.z};
+  SetupVector nx, ny, nz, t_num, t_error, den_factor;
+  TrianglePlane(
+      d, [&](int k) HWY_ATTR { return hn::Set(d, eye[k]); },
+      [&](int k) HWY_ATTR { return load(k / 3, k % 3); }, nx, ny, nz, t_num, t_error, den_factor);
   const SetupVector inverse = hn::Div(hn::Set(d, 1.0), t_num);
   const SetupVector relative = hn::Mul(t_error, hn::Abs(inverse));
 
@@ -126,8 +119,9 @@ HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const floa
   const SetupVector one = hn::Set(d, 1.0);
   hn::Store(hn::IfThenElse(hn::And(sided, hn::Lt(t_num, hn::Zero(d))), hn::Neg(one), one), d, lanes.turn);
 
+  // den_factor is at least 7.2 u L^2 but for its own roundings.
   const SetupVector den_error =
-      hn::MulAdd(extent2, hn::Set(d, 20.0 * kSetupU * view.greatest), RayRounding(view, nx, ny, nz));
+      hn::MulAdd(den_factor, hn::Set(d, 2.8 * view.greatest), RayRounding(view, nx, ny, nz));
   static_assert(ScreenTriangle::kDepthRelative == 0x1p-26);
   const SetupVector error = hn::IfThenElse(hn::Lt(relative, hn::Set(d, 0x1p-27)),
                                            hn::Mul(den_error, hn::Set(d, 1.01)), hn::Set(d, kDoubleInfinity));
@@ -206,7 +200,7 @@ HWY_INLINE void PlaceLanes(SetupVector tile_x, SetupVector tile_y, SetupLanes& l
   }
 }
 
-// Everything but `tile`. The box lies in one tile.
+// Everything but `place`. The box lies in one tile.
 HWY_INLINE void StorePlaced(const SetupLanes& lanes, size_t lane, const SetupCandidates& from, size_t i,
                             TileTriangle& to) {
   for (int k = 0; k < 4; ++k) {
@@ -216,7 +210,6 @@ HWY_INLINE void StorePlaced(const SetupLanes& lanes, size_t lane, const SetupCan
     to.error[k] = lanes.tile_error[k][lane];
   }
   to.nearest = from.nearest[i];
-  to.index = from.index[i];
   to.x0 = static_cast<std::uint8_t>(from.x0[i] % kTilePx);
   to.y0 = static_cast<std::uint8_t>(from.y0[i] % kTilePx);
   to.x1 = static_cast<std::uint8_t>(from.x1[i] % kTilePx);
