@@ -77,7 +77,9 @@ HWY_INLINE void StoreBox(const SetupCandidates& from, size_t i, ScreenTriangle& 
 inline void SetUpExactly(const SetupCandidates& from, std::vector<ScreenTriangle>& to) {
   for (size_t i = 0; i < from.count; ++i) {
     ScreenTriangle& triangle = to.emplace_back();
+    // No depth is certain then either.
     std::fill(std::begin(triangle.error), std::end(triangle.error), std::numeric_limits<float>::infinity());
+    std::fill(std::begin(triangle.plane), std::end(triangle.plane), std::numeric_limits<double>::quiet_NaN());
     StoreBox(from, i, triangle);
   }
 }
@@ -103,41 +105,54 @@ inline void SetUpWide(const Projection& view, const SetupCandidates& from, std::
         triangle.c[k] = lanes.c[k][lane];
         triangle.error[k] = lanes.error[k][lane];
       }
+      for (int k = 0; k < 6; ++k) triangle.plane[k] = lanes.plane[k][lane];
       triangle.side_open = (side_open >> lane & 1) != 0;
       StoreBox(from, i, triangle);
     }
   }
 }
 
-// Lists a triangle with the tiles of its box, each with its part of it.
-HWY_INLINE void AddToTiles(const ScreenBoxes& boxes, size_t lane, std::uint32_t index, int tile_columns,
-                           TileLists& lists) {
-  const auto clipped = [](int side, int tile) HWY_ATTR {
-    return static_cast<std::uint8_t>(std::clamp(side - tile * kTilePx, 0, kTilePx - 1));
-  };
-  const int x0 = boxes.x0[lane], y0 = boxes.y0[lane], x1 = boxes.x1[lane], y1 = boxes.y1[lane];
-  for (int row = y0 / kTilePx; row <= y1 / kTilePx; ++row) {
-    for (int column = x0 / kTilePx; column <= x1 / kTilePx; ++column) {
-      lists.add(static_cast<std::uint32_t>(row * tile_columns + column),
-                {index, boxes.nearest[lane], clipped(x0, column), clipped(y0, row), clipped(x1, column),
-                 clipped(y1, row)});
-    }
+// What boxes of pixels are in tiles.
+struct TileBoxes {
+  alignas(64) std::uint32_t tile[kFetched];  // that of the upper left pixel
+  alignas(64) std::uint32_t box[kFetched];   // TileEntry's, where all of it lies there
+  std::uint32_t one;                         // a bit where it does
+  std::uint32_t few;                         // a bit where it lies within two tiles by two
+};
+
+HWY_INLINE void FindTiles(const ScreenBoxes& boxes, int tile_columns, TileBoxes& to) {
+  const hn::CappedTag<std::int32_t, kFetched> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  static_assert(kTilePx == 32);
+  to.one = to.few = 0;
+  for (size_t lane = 0; lane < kFetched; lane += hn::Lanes(d)) {
+    const auto x0 = hn::Load(d, boxes.x0 + lane), y0 = hn::Load(d, boxes.y0 + lane);
+    const auto x1 = hn::Load(d, boxes.x1 + lane), y1 = hn::Load(d, boxes.y1 + lane);
+    const auto column = hn::ShiftRight<5>(x0), row = hn::ShiftRight<5>(y0);
+    const auto more = hn::Max(hn::Sub(hn::ShiftRight<5>(x1), column), hn::Sub(hn::ShiftRight<5>(y1), row));
+    to.one |= MaskBits(d, hn::Eq(more, hn::Zero(d))) << lane;
+    to.few |= MaskBits(d, hn::Lt(more, hn::Set(d, 2))) << lane;
+    const auto tile = hn::Add(hn::Mul(row, hn::Set(d, tile_columns)), column);
+    hn::Store(hn::BitCast(du, tile), du, to.tile + lane);
+    const auto inside = [&](auto side) HWY_ATTR { return hn::And(side, hn::Set(d, kTilePx - 1)); };
+    const auto low = hn::Or(inside(x0), hn::ShiftLeft<8>(inside(y0)));
+    const auto high = hn::Or(inside(x1), hn::ShiftLeft<8>(inside(y1)));
+    hn::Store(hn::BitCast(du, hn::Or(low, hn::ShiftLeft<16>(high))), du, to.box + lane);
   }
 }
 
-// A bit for each triangle whose box lies within two tiles by two.
-HWY_INLINE std::uint32_t NarrowBits(const ScreenBoxes& boxes) {
-  const hn::CappedTag<std::int32_t, kFetched> d;
-  static_assert(kTilePx == 32);
-  std::uint32_t bits = 0;
-  for (size_t lane = 0; lane < kFetched; lane += hn::Lanes(d)) {
-    const auto tile = [&](const std::int32_t* side)
-                          HWY_ATTR { return hn::ShiftRight<5>(hn::Load(d, side + lane)); };
-    const auto columns = hn::Sub(tile(boxes.x1), tile(boxes.x0));
-    const auto rows = hn::Sub(tile(boxes.y1), tile(boxes.y0));
-    bits |= MaskBits(d, hn::Lt(hn::Max(columns, rows), hn::Set(d, 2))) << lane;
+// Lists a triangle with each tile of its box, with its part of it.
+inline void AddToTiles(const ScreenBoxes& boxes, size_t lane, std::uint32_t index, int tile_columns,
+                       TileLists& lists) {
+  const auto clipped = [](int side, int tile) { return std::clamp(side - tile * kTilePx, 0, kTilePx - 1); };
+  const int x0 = boxes.x0[lane], y0 = boxes.y0[lane], x1 = boxes.x1[lane], y1 = boxes.y1[lane];
+  for (int row = y0 / kTilePx; row <= y1 / kTilePx; ++row) {
+    for (int column = x0 / kTilePx; column <= x1 / kTilePx; ++column) {
+      const std::uint32_t box =
+          TileEntry::pack(clipped(x0, column), clipped(y0, row), clipped(x1, column), clipped(y1, row));
+      lists.add(static_cast<std::uint32_t>(row * tile_columns + column), {index, boxes.nearest[lane], box});
+    }
   }
-  return bits;
 }
 
 inline void BinTriangles(const Projection& view, MeshView mesh, size_t first, size_t last,
@@ -148,6 +163,7 @@ inline void BinTriangles(const Projection& view, MeshView mesh, size_t first, si
   const float* corner[9];
   for (int k = 0; k < 9; ++k) corner[k] = fetched.corner[k];
   ScreenBoxes boxes{};
+  TileBoxes tiles;
   SetupCandidates wide;
   wide.count = 0;
   for (size_t i = first; i < last; i += kFetched) {
@@ -157,12 +173,18 @@ inline void BinTriangles(const Projection& view, MeshView mesh, size_t first, si
                                    ? BoundTriangles<kFetched>(view, WholeFrame(view), corner, count, boxes)
                                    : BoundNowhere(view, corner, count, boxes);
     if (seen == 0) continue;
-    const std::uint32_t narrow = view.exact_only ? 0 : NarrowBits(boxes);
-    for (std::uint32_t bits = seen & narrow; bits != 0; bits &= bits - 1) {
+    FindTiles(boxes, tile_columns, tiles);
+    if (view.exact_only) tiles.one = tiles.few = 0;
+    for (std::uint32_t bits = seen & tiles.one; bits != 0; bits &= bits - 1) {
+      const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      to.lists.add(tiles.tile[lane],
+                   {static_cast<std::uint32_t>(i + lane), boxes.nearest[lane], tiles.box[lane]});
+    }
+    for (std::uint32_t bits = seen & tiles.few & ~tiles.one; bits != 0; bits &= bits - 1) {
       const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       AddToTiles(boxes, lane, static_cast<std::uint32_t>(i + lane), tile_columns, to.lists);
     }
-    AddCandidates(corner, boxes, seen & ~narrow, i, wide);
+    AddCandidates(corner, boxes, seen & ~tiles.few, i, wide);
     if (wide.count >= kFetched) {
       SetUpWide(view, wide, to.wide);
       wide.count = 0;

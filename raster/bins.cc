@@ -108,13 +108,7 @@ void Bins::collect(std::size_t tile, TileContents& to) const {
   for (const Slot& slot : slots_) order_by_depth(slot.wide[0].list(tile), to.wide);
   // Neighbours in a mesh mostly lie side by side, so runs are ordered, not triangles: near ones hide far ones
   // before these are set up.
-  for (const Slot& slot : slots_) {
-    slot.triangles.lists.visit(tile, [&](std::span<const TileEntry> entries) {
-      float nearest = 0.0f;
-      for (const TileEntry& entry : entries) nearest = std::max(nearest, entry.nearest);
-      to.runs.push_back({nearest, entries});
-    });
-  }
+  for (const Slot& slot : slots_) slot.triangles.lists.collect(tile, to.runs);
   std::sort(to.runs.begin(), to.runs.end(),
             [](const EntryRun& a, const EntryRun& b) { return a.nearest > b.nearest; });
 }

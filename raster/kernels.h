@@ -22,12 +22,6 @@ struct BinnedTriangles {
   std::vector<ScreenTriangle> wide;
 };
 
-/// Entries side by side in a tile's list, and the greatest `nearest` of them.
-struct EntryRun {
-  float nearest;
-  std::span<const TileEntry> entries;
-};
-
 /// What a tile may see, in the order in which it is drawn.
 struct TileContents {
   std::vector<std::span<const WideEntry>> sorted;  ///< each from front to back

@@ -29,6 +29,18 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Adds a triangle to the tile's drawn ones; returns its place.
+HWY_INLINE std::uint32_t AddWide(const TileView& view, const MeshTriangles& mesh,
+                                 const ScreenTriangle& triangle, TileState& state) {
+  MakeRoom(view, mesh, state, 1);
+  DrawnTriangles& to = state.drawn;
+  const size_t place = to.count++;
+  for (int k = 0; k < 6; ++k) to.plane[k][place] = triangle.plane[k];
+  to.index[place] = triangle.index;
+  to.id[place] = mesh.id(triangle.index);
+  return static_cast<std::uint32_t>(place);
+}
+
 template <class Counts>
 HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const ScreenTriangle& triangle,
                          TileState& state, Counts& counts) {
@@ -38,7 +50,7 @@ HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const 
   TileTriangle placed;
   PlaceTriangle(triangle, view.x, view.y, placed);
   if (HWY_LIKELY(!triangle.side_open) && OutsideTile(placed)) return;
-  placed.place = AddDrawn(view, mesh, triangle.index, state);
+  placed.place = AddWide(view, mesh, triangle, state);
   DrawBlocks(view, mesh, placed, triangle.side_open, state, counts);
   if (HWY_LIKELY(!triangle.side_open)) return;
   TurnEdges(placed);
@@ -53,8 +65,7 @@ HWY_INLINE void DrawWideList(const TileJob& job, const MeshTriangles& mesh, std:
   constexpr size_t kAhead = 8;
   const auto prefetch = [&](size_t i) HWY_ATTR {
     const auto* const next = reinterpret_cast<const char*>(list[i].triangle);
-    hwy::Prefetch(next);
-    hwy::Prefetch(next + 64);
+    for (size_t offset = 0; offset < sizeof(ScreenTriangle); offset += 64) hwy::Prefetch(next + offset);
   };
   for (size_t i = 0; i < std::min(kAhead, list.size()); ++i) prefetch(i);
   for (size_t i = 0; i < list.size(); ++i) {
@@ -69,8 +80,8 @@ HWY_INLINE void DrawWideList(const TileJob& job, const MeshTriangles& mesh, std:
 
 // Whether all that the tile may see of the triangle is hidden.
 HWY_INLINE bool Hidden(const TileEntry& entry, const TileState& state) {
-  const int column0 = entry.x0 / kBlockPx, column1 = entry.x1 / kBlockPx;
-  const int row0 = entry.y0 / kBlockPx * kTileBlocks, row1 = entry.y1 / kBlockPx * kTileBlocks;
+  const int column0 = entry.x0() / kBlockPx, column1 = entry.x1() / kBlockPx;
+  const int row0 = entry.y0() / kBlockPx * kTileBlocks, row1 = entry.y1() / kBlockPx * kTileBlocks;
   if (column1 - column0 > 1 || row1 - row0 > kTileBlocks) return entry.nearest < state.tile_low;
   const float* const low = state.block_low;
   const float least = std::min(std::min(low[row0 + column0], low[row0 + column1]),
@@ -87,10 +98,10 @@ HWY_INLINE void AddEntry(const TileView& view, MeshView mesh, const TileEntry& e
     to.corner[3 * v + 1][i] = vertex[v]->y;
     to.corner[3 * v + 2][i] = vertex[v]->z;
   }
-  to.x0[i] = view.x + entry.x0;
-  to.y0[i] = view.y + entry.y0;
-  to.x1[i] = view.x + entry.x1;
-  to.y1[i] = view.y + entry.y1;
+  to.x0[i] = view.x + entry.x0();
+  to.y0[i] = view.y + entry.y0();
+  to.x1[i] = view.x + entry.x1();
+  to.y1[i] = view.y + entry.y1();
   to.nearest[i] = entry.nearest;
   to.index[i] = entry.index;
 }

@@ -13,9 +13,26 @@ void TileLists::grow(Tail& tail) {
   Run* const run = &pieces_[piece][used_ % kRunsAPiece];
   ++used_;
   run->next = nullptr;
-  (tail.first == nullptr ? tail.first : tail.last->next) = run;
+  if (tail.first == nullptr) {
+    tail.first = run;
+  } else {
+    tail.last->next = run;
+    tail.last->nearest = tail.nearest;
+  }
   tail.last = run;
   tail.filled = 0;
+  tail.nearest = 0.0f;
+}
+
+void TileLists::collect(std::size_t tile, std::vector<EntryRun>& to) const {
+  const Tail& tail = tails_[tile];
+  for (const Run* run = tail.first; run != nullptr; run = run->next) {
+    if (run->next != nullptr) {
+      to.push_back({run->nearest, run->entry});
+    } else {
+      to.push_back({tail.nearest, std::span<const TileEntry>(run->entry).first(tail.filled)});
+    }
+  }
 }
 
 }  // namespace plumb::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,9 +12,23 @@ namespace plumb::detail {
 
 /// A triangle that a tile may see.
 struct TileEntry {
-  std::uint32_t index;          ///< in the mesh
-  float nearest;                ///< no pixel sees it at 1/t above this, with room for the rounding of t
-  std::uint8_t x0, y0, x1, y1;  ///< pixels of the tile that may see it, both ends included
+  std::uint32_t index;  ///< in the mesh
+  float nearest;        ///< no pixel sees it at 1/t above this, with room for the rounding of t
+  std::uint32_t box;    ///< pixels of the tile that may see it, both ends included, as pack() has them
+
+  static constexpr std::uint32_t pack(int x0, int y0, int x1, int y1) {
+    return static_cast<std::uint32_t>(x0 | y0 << 8 | x1 << 16 | y1 << 24);
+  }
+  int x0() const { return static_cast<int>(box & 0xff); }
+  int y0() const { return static_cast<int>(box >> 8 & 0xff); }
+  int x1() const { return static_cast<int>(box >> 16 & 0xff); }
+  int y1() const { return static_cast<int>(box >> 24); }
+};
+
+/// Entries side by side in a tile's list, and the greatest `nearest` of them.
+struct EntryRun {
+  float nearest;
+  std::span<const TileEntry> entries;
 };
 
 /// A list of triangles for each tile. Each grows by runs taken from one store, so that what is added is
@@ -24,6 +39,7 @@ class TileLists {
   struct Run {
     static constexpr std::size_t kEntries = 20;
     std::array<TileEntry, kEntries> entry;
+    float nearest;
     Run* next;
   };
 
@@ -34,27 +50,21 @@ class TileLists {
     Tail& tail = tails_[tile];
     if (tail.filled == Run::kEntries) grow(tail);
     tail.last->entry[tail.filled++] = entry;
+    tail.nearest = std::max(tail.nearest, entry.nearest);
   }
 
-  bool empty(std::size_t tile) const { return tails_[tile].first == nullptr; }
   /// Bytes of the runs in use.
   std::size_t bytes() const { return used_ * sizeof(Run); }
 
-  /// Calls visit(std::span<const TileEntry>) for each of a tile's runs.
-  template <class Visit>
-  void visit(std::size_t tile, const Visit& visit) const {
-    const Tail& tail = tails_[tile];
-    for (const Run* run = tail.first; run != nullptr; run = run->next) {
-      const std::size_t entries = run->next == nullptr ? tail.filled : Run::kEntries;
-      visit(std::span<const TileEntry>(run->entry.data(), entries));
-    }
-  }
+  /// Appends a tile's runs.
+  void collect(std::size_t tile, std::vector<EntryRun>& to) const;
 
  private:
   struct Tail {
     Run* first = nullptr;
     Run* last = nullptr;
-    std::size_t filled = Run::kEntries;  // entries of the last run
+    std::uint32_t filled = Run::kEntries;  // entries of the last run
+    float nearest = 0.0f;                  // of it
   };
   static constexpr std::size_t kRunsAPiece = 256;
 

@@ -30,7 +30,6 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
                          std::uint32_t triangle, std::uint32_t pixels) {
   const int first = block * kBlockPixels;
   LearnBlock(view, triangles, state, block, pixels);
-  LearnPlane(view, triangles, state, triangle);
   HWY_ALIGN float t[kBlockPixels];
   const std::uint32_t certain = BlockDepthsOf(state, block, triangle, t);
   const std::uint32_t id = state.drawn.id[triangle];

@@ -37,6 +37,25 @@ HWY_INLINE void DrawPlaced(const TileView& view, const Triangles& triangles, Til
   }
 }
 
+// Adds a vector of triangles to the tile's drawn ones; returns the place of the first. Those that are not
+// drawn are added too: nobody asks for them, and whole vectors are stored fast.
+template <class Triangles>
+HWY_INLINE std::uint32_t AddDrawn(const TileView& view, const Triangles& triangles,
+                                  const SetupCandidates& from, size_t first, size_t count,
+                                  const SetupLanes& lanes, TileState& state) {
+  const SetupTag d;
+  MakeRoom(view, triangles, state, hn::Lanes(d));
+  DrawnTriangles& to = state.drawn;
+  const size_t place = to.count;
+  for (size_t k = 0; k < 6; ++k) hn::StoreU(hn::Load(d, lanes.plane[k]), d, to.plane[k] + place);
+  for (size_t i = 0; i < count; ++i) {
+    to.index[place + i] = from.index[first + i];
+    to.id[place + i] = triangles.id(from.index[first + i]);
+  }
+  to.count += count;
+  return static_cast<std::uint32_t>(place);
+}
+
 // Draws a vector's worth of candidates from `first` on, or the `count` that are left. Their boxes lie in the
 // tile.
 template <class Triangles, class Counts>
@@ -50,15 +69,16 @@ HWY_INLINE void DrawCandidates(const Projection& projection, const TileView& vie
   const std::uint32_t drawn = ((1u << count) - 1) & ~uncovered;
   if (drawn == 0) return;
   PlaceLanes(hn::Set(d, view.x), hn::Set(d, view.y), lanes);
+  const std::uint32_t place = AddDrawn(view, triangles, candidates, first, count, lanes, state);
   // All are stored before any is drawn: what has just been stored by parts is slow to load as a whole.
   TileTriangle placed[8];
   for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
     StorePlaced(lanes, i, candidates, first + i, placed[i]);
+    placed[i].place = place + static_cast<std::uint32_t>(i);
   }
   for (std::uint32_t bits = drawn; bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    placed[i].place = AddDrawn(view, triangles, candidates.index[first + i], state);
     DrawPlaced(view, triangles, placed[i], (side_open >> i & 1) != 0, state, counts);
   }
 }

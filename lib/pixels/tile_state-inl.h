@@ -190,8 +190,7 @@ inline void StartTile(const TileView& view, TileState& state) {
 
 template <class Triangles>
 HWY_INLINE PlacedTriangle Placed(const Triangles& triangles, const TileState& state, std::uint32_t place) {
-  const std::uint32_t index = state.drawn.index[place];
-  return {place, triangles.id(index), triangles.corners(index)};
+  return {place, state.drawn.id[place], triangles.corners(state.drawn.index[place])};
 }
 
 // One component of the directions of a block's pixels from `lane` on.
@@ -244,41 +243,6 @@ HWY_INLINE std::uint32_t BlockDepthsOfEach(const TileState& state, int block, co
       t);
 }
 
-// Computes what gives exact depths of so many drawn triangles, whose places are given.
-template <class Triangles>
-inline void PreparePlanes(const TileView& view, const Triangles& triangles, const std::uint32_t* place,
-                          std::size_t count, DrawnTriangles& drawn) {
-  const hn::CappedTag<double, 8> d;
-  const hn::Rebind<float, decltype(d)> df;
-  alignas(64) float corner[9][8] = {};
-  alignas(64) double plane[6][8];
-  for (std::size_t first = 0; first < count; first += hn::Lanes(d)) {
-    const std::size_t now = std::min(hn::Lanes(d), count - first);
-    for (std::size_t i = 0; i < now; ++i) {
-      const Triangle corners = triangles.corners(drawn.index[place[first + i]]);
-      const glm::vec3* const vertex[3] = {&corners.v0, &corners.v1, &corners.v2};
-      for (int k = 0; k < 9; ++k) corner[k][i] = (*vertex[k / 3])[k % 3];
-    }
-    hn::Vec<decltype(d)> nx, ny, nz, t_num, t_error, den_factor;
-    TrianglePlane(
-        d, [&](int k) HWY_ATTR { return hn::Set(d, double{view.camera.eye[k]}); },
-        [&](int k) HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, corner[k])); }, nx, ny, nz, t_num, t_error,
-        den_factor);
-    hn::Store(nx, d, plane[0]);
-    hn::Store(ny, d, plane[1]);
-    hn::Store(nz, d, plane[2]);
-    hn::Store(t_num, d, plane[3]);
-    hn::Store(t_error, d, plane[4]);
-    hn::Store(den_factor, d, plane[5]);
-    for (std::size_t i = 0; i < now; ++i) {
-      const std::uint32_t to = place[first + i];
-      for (int k = 0; k < 6; ++k) drawn.plane[k][to] = plane[k][i];
-      drawn.id[to] = triangles.id(drawn.index[to]);
-      drawn.ready[to] = true;
-    }
-  }
-}
-
 // The pixels of a block whose winner's exact answer is still to be computed, a bit each.
 HWY_INLINE std::uint32_t UnknownBits(const TileState& state, int block) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
@@ -291,20 +255,7 @@ HWY_INLINE std::uint32_t UnknownBits(const TileState& state, int block) {
   return unknown;
 }
 
-// Adds the winners of a block's pixels whose bit is set to a list, but those that are ready or listed: all
-// that are listed count as ready.
-HWY_INLINE void ListWinners(TileState& state, int block, std::uint32_t pixels, std::uint32_t* place,
-                            std::size_t& count) {
-  const std::uint32_t* winner = state.winner + block * kBlockPixels;
-  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-    const std::uint32_t own = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)];
-    if (state.drawn.ready[own]) continue;
-    state.drawn.ready[own] = true;
-    place[count++] = own;
-  }
-}
-
-// Computes the exact answer of those of a block's pixels whose bit is set; their winners' planes are ready.
+// Computes the exact answer of those of a block's pixels whose bit is set.
 template <class Triangles>
 inline void SettleBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
                         std::uint32_t unknown) {
@@ -346,51 +297,25 @@ inline void LearnBlock(const TileView& view, const Triangles& triangles, TileSta
                        std::uint32_t pixels) {
   const std::uint32_t unknown = UnknownBits(state, block) & pixels;
   if (unknown == 0) return;
-  std::uint32_t place[kBlockPixels];
-  std::size_t count = 0;
-  ListWinners(state, block, unknown, place, count);
-  PreparePlanes(view, triangles, place, count, state.drawn);
   SettleBlock(view, triangles, state, block, unknown);
-}
-
-// Makes a drawn triangle's plane ready.
-template <class Triangles>
-HWY_INLINE void LearnPlane(const TileView& view, const Triangles& triangles, TileState& state,
-                           std::uint32_t place) {
-  if (!state.drawn.ready[place]) PreparePlanes(view, triangles, &place, 1, state.drawn);
 }
 
 // Computes the exact answer of every pixel.
 template <class Triangles>
 inline void LearnTile(const TileView& view, const Triangles& triangles, TileState& state) {
-  constexpr int kBlocks = kTileBlocks * kTileBlocks;
-  std::uint32_t unknown[kBlocks];
-  std::uint32_t place[DrawnTriangles::kRoom];
-  std::size_t count = 0;
-  for (int block = 0; block < kBlocks; ++block) {
-    unknown[block] = UnknownBits(state, block);
-    ListWinners(state, block, unknown[block], place, count);
-  }
-  PreparePlanes(view, triangles, place, count, state.drawn);
-  for (int block = 0; block < kBlocks; ++block) {
-    if (unknown[block] != 0) SettleBlock(view, triangles, state, block, unknown[block]);
-  }
+  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block)
+    LearnBlock(view, triangles, state, block, 0xffffu);
 }
 
-// The place of one more drawn triangle.
+// Makes room for so many more drawn triangles.
 template <class Triangles>
-HWY_INLINE std::uint32_t AddDrawn(const TileView& view, const Triangles& triangles, std::uint32_t index,
-                                  TileState& state) {
-  DrawnTriangles& drawn = state.drawn;
-  if (HWY_UNLIKELY(drawn.count == DrawnTriangles::kRoom)) {
-    LearnTile(view, triangles, state);
-    std::fill(std::begin(state.winner), std::end(state.winner), TileState::kEarlier);
-    std::fill(std::begin(state.known), std::end(state.known), TileState::kEarlier);
-    drawn.count = 0;
-  }
-  drawn.index[drawn.count] = index;
-  drawn.ready[drawn.count] = false;
-  return static_cast<std::uint32_t>(drawn.count++);
+HWY_INLINE void MakeRoom(const TileView& view, const Triangles& triangles, TileState& state,
+                         std::size_t count) {
+  if (HWY_LIKELY(state.drawn.count + count <= DrawnTriangles::kRoom)) return;
+  LearnTile(view, triangles, state);
+  std::fill(std::begin(state.winner), std::end(state.winner), TileState::kEarlier);
+  std::fill(std::begin(state.known), std::end(state.known), TileState::kEarlier);
+  state.drawn.count = 0;
 }
 
 // Gives the frame what a tile sees that nothing was drawn into.

@@ -16,15 +16,14 @@ struct TileView {
   int x, y;         ///< of the tile's upper left pixel
 };
 
-/// The triangles drawn into a tile of late; pixels refer to them by their place here. What gives a triangle's
-/// exact depths is computed when first asked for: most are never seen.
+/// The triangles drawn into a tile of late, each with what gives its exact depths; pixels refer to them by
+/// their place here.
 struct DrawnTriangles {
   static constexpr std::size_t kRoom = 1024;
 
-  std::uint32_t index[kRoom];          ///< among the triangles that the tile is drawn from
-  bool ready[kRoom];                   ///< the following is computed
   alignas(64) double plane[6][kRoom];  ///< N, T, T's error, den's factor: exact/depth-inl.h's TrianglePlane
   alignas(64) std::uint32_t id[kRoom];
+  std::uint32_t index[kRoom];  ///< among the triangles that the tile is drawn from
   std::size_t count;
 };
 

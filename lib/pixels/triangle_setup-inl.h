@@ -31,6 +31,7 @@ struct SetupLanes {
   alignas(64) double corner[9][8];
   alignas(64) double size[3][8];  // |corner|_1
   alignas(64) double turn[8];
+  alignas(64) double plane[6][8];  // DrawnTriangles'
 
   alignas(64) double a[4][8], b[4][8], c[4][8];
   alignas(64) float error[4][8];
@@ -110,6 +111,12 @@ HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const floa
   TrianglePlane(
       d, [&](int k) HWY_ATTR { return hn::Set(d, eye[k]); },
       [&](int k) HWY_ATTR { return load(k / 3, k % 3); }, nx, ny, nz, t_num, t_error, den_factor);
+  hn::Store(nx, d, lanes.plane[0]);
+  hn::Store(ny, d, lanes.plane[1]);
+  hn::Store(nz, d, lanes.plane[2]);
+  hn::Store(t_num, d, lanes.plane[3]);
+  hn::Store(t_error, d, lanes.plane[4]);
+  hn::Store(den_factor, d, lanes.plane[5]);
   const SetupVector inverse = hn::Div(hn::Set(d, 1.0), t_num);
   const SetupVector relative = hn::Mul(t_error, hn::Abs(inverse));
 
