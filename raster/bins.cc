@@ -85,6 +85,7 @@ std::size_t Bins::fill(MeshView mesh, std::size_t first, std::size_t last, int t
       bytes += to.lists.bytes() - had_bytes;
       wide += to.wide.size() - had_wide;
     }
+    to.lists.finish();
     for (SquareLists& lists : slot.wide) lists.clear();
     for (const ScreenTriangle& triangle : to.wide) add_wide(triangle, slot);
     for (SquareLists& lists : slot.wide) lists.sort();

@@ -107,14 +107,22 @@ HWY_INLINE void AddEntry(const TileView& view, MeshView mesh, const TileEntry& e
 }
 
 // Fetches what a run's triangles are made of, all at once rather than one after the other.
-HWY_INLINE void FetchRun(MeshView mesh, std::span<const TileEntry> run) {
-  for (const TileEntry& entry : run) hwy::Prefetch(&mesh.triangles[entry.index]);
-  for (const TileEntry& entry : run) {
+HWY_INLINE void FetchTriangles(MeshView mesh, const EntryRun& run) {
+  for (const TileEntry& entry : run.entries) hwy::Prefetch(&mesh.triangles[entry.index]);
+}
+
+HWY_INLINE void FetchVertices(MeshView mesh, const EntryRun& run) {
+  for (const TileEntry& entry : run.entries) {
     const glm::uvec3& c = mesh.triangles[entry.index];
     hwy::Prefetch(&mesh.positions[c.x]);
     hwy::Prefetch(&mesh.positions[c.y]);
     hwy::Prefetch(&mesh.positions[c.z]);
   }
+}
+
+HWY_INLINE void FetchEntries(const EntryRun& run) {
+  const auto* const bytes = reinterpret_cast<const char*>(run.entries.data());
+  for (size_t offset = 0; offset < run.entries.size_bytes(); offset += 64) hwy::Prefetch(bytes + offset);
 }
 
 // Draws the triangles of the tile's lists.
@@ -127,12 +135,18 @@ HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileSta
     candidates.count = 0;
     UpdateLows(state);
   };
-  for (const EntryRun& run : job.contents.runs) {
+  const std::vector<EntryRun>& runs = job.contents.runs;
+  if (!runs.empty()) FetchTriangles(mesh.mesh, runs[0]);
+  if (runs.size() > 1) FetchEntries(runs[1]);
+  for (size_t r = 0; r < runs.size(); ++r) {
+    const EntryRun& run = runs[r];
     if (run.nearest < state.tile_low) {  // and all that follow
       counts.tile(true);
       break;
     }
-    FetchRun(mesh.mesh, run.entries);
+    if (r + 2 < runs.size()) FetchEntries(runs[r + 2]);
+    FetchVertices(mesh.mesh, run);
+    if (r + 1 < runs.size()) FetchTriangles(mesh.mesh, runs[r + 1]);
     for (const TileEntry& entry : run.entries) {
       const bool hidden = Hidden(entry, state);
       counts.tile(hidden);

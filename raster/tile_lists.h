@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,47 +31,55 @@ struct EntryRun {
 };
 
 /// A list of triangles for each tile. Each grows by runs taken from one store, so that what is added is
-/// written once, and nothing is sorted.
+/// written once; only the runs are sorted by tile, in the end.
 class TileLists {
  public:
-  /// Entries side by side; a list's runs are full but for the last.
-  struct Run {
-    static constexpr std::size_t kEntries = 20;
-    std::array<TileEntry, kEntries> entry;
-    float nearest;
-    Run* next;
-  };
-
   /// Empties the lists of so many tiles; keeps the store.
   void reset(std::size_t tiles);
 
   void add(std::uint32_t tile, const TileEntry& entry) {
     Tail& tail = tails_[tile];
-    if (tail.filled == Run::kEntries) grow(tail);
-    tail.last->entry[tail.filled++] = entry;
+    if (tail.filled == kRunEntries) grow(tile);
+    run(tail.run)[tail.filled++] = entry;
     tail.nearest = std::max(tail.nearest, entry.nearest);
   }
 
   /// Bytes of the runs in use.
-  std::size_t bytes() const { return used_ * sizeof(Run); }
+  std::size_t bytes() const { return used_ * kRunEntries * sizeof(TileEntry); }
 
-  /// Appends a tile's runs.
+  /// Ends all lists: nothing more is added.
+  void finish();
+  /// Appends a tile's runs, in the order of adding; after finish().
   void collect(std::size_t tile, std::vector<EntryRun>& to) const;
 
  private:
-  struct Tail {
-    Run* first = nullptr;
-    Run* last = nullptr;
-    std::uint32_t filled = Run::kEntries;  // entries of the last run
-    float nearest = 0.0f;                  // of it
-  };
-  static constexpr std::size_t kRunsAPiece = 256;
+  static constexpr std::uint32_t kRunEntries = 20;
+  static constexpr std::uint32_t kRunsAPiece = 256;
 
-  void grow(Tail& tail);
+  // The last run of a tile's list; none where run is kNoRun.
+  struct Tail {
+    std::uint32_t run = kNoRun;
+    std::uint32_t filled = kRunEntries;
+    float nearest = 0.0f;
+  };
+  static constexpr std::uint32_t kNoRun = 0xffffffffu;
+
+  struct TileRun {
+    std::uint32_t tile;
+    Tail of;
+  };
+
+  TileEntry* run(std::uint32_t index) const {
+    return pieces_[index / kRunsAPiece].get() + index % kRunsAPiece * kRunEntries;
+  }
+  void grow(std::uint32_t tile);
 
   std::vector<Tail> tails_;
-  std::vector<std::unique_ptr<Run[]>> pieces_;
-  std::size_t used_ = 0;  // runs
+  std::vector<std::unique_ptr<TileEntry[]>> pieces_;
+  std::size_t used_ = 0;            // runs
+  std::vector<TileRun> ended_;      // in the order of ending
+  std::vector<Tail> runs_;          // by tile
+  std::vector<std::size_t> begin_;  // of each tile's among them, and their end
 };
 
 }  // namespace plumb::detail
