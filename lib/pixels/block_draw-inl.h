@@ -70,6 +70,14 @@ HWY_INLINE void PlanesAt(const TileTriangle& triangle, int block, float centre[4
   }
 }
 
+// The last of them, 1/t.
+HWY_INLINE void InverseAt(const TileTriangle& triangle, int block, float centre[4]) {
+  const hn::CappedTag<float, 1> d;
+  const auto row =
+      hn::MulAdd(hn::Set(d, triangle.b[3]), hn::Set(d, kCentres.block_y[block]), hn::Set(d, triangle.c[3]));
+  centre[3] = hn::GetLane(hn::MulAdd(hn::Set(d, triangle.a[3]), hn::Set(d, kCentres.block_x[block]), row));
+}
+
 // A plane at the pixels of a block from `lane` on.
 template <class D>
 HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const float centre[4], int plane,
@@ -90,7 +98,11 @@ HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, cons
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   HWY_ALIGN float centre[4];
-  PlanesAt(triangle, block, centre);
+  if constexpr (kFull) {
+    InverseAt(triangle, block, centre);
+  } else {
+    PlanesAt(triangle, block, centre);
+  }
   std::uint32_t won_bits = 0, depth_open = 0, edge_open = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;

@@ -126,10 +126,60 @@ HWY_INLINE void StartDirections(const TileView& view, TileState& state) {
   }
 }
 
+// Starts a tile that sees nothing yet.
+inline void StartTile(const TileView& view, TileState& state) {
+  StartDirections(view, state);
+  const int columns = view.camera.width - view.x, rows = view.camera.height - view.y;
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
+    hn::Store(hn::Set(d, -kFloatInfinity), d, state.inverse_low + offset);
+    hn::Store(hn::Set(d, TileState::kLeastInverse), d, state.inverse_high + offset);
+    hn::Store(hn::Set(d, kFloatInfinity), d, state.t + offset);
+    hn::Store(hn::Set(du, kNone), du, state.id + offset);
+    hn::Store(hn::Set(du, TileState::kEarlier), du, state.winner + offset);
+    hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
+  }
+  if (columns < kTilePx || rows < kTilePx) {
+    for (int offset = 0; offset < kTilePixels; ++offset) {
+      if (tile_x(offset) < columns && tile_y(offset) < rows) continue;
+      state.t[offset] = -kFloatInfinity;
+      state.inverse_low[offset] = state.inverse_high[offset] = kFloatInfinity;  // hidden from all
+    }
+  }
+  state.changed = ~std::uint64_t{0};
+  state.drawn.count = 0;
+  UpdateLows(state);
+}
+
+// Whether the frame's pixels, all of the tile's, see nothing.
+HWY_INLINE bool SeesNothing(const TileView& view, const Frame& frame) {
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const size_t lanes = hn::Lanes(d);
+  for (int y = 0; y < kTilePx; ++y) {
+    const size_t row = static_cast<size_t>(view.y + y) * static_cast<size_t>(view.camera.width) +
+                       static_cast<size_t>(view.x);
+    auto some = hn::FirstN(d, 0);
+    for (size_t x = 0; x < static_cast<size_t>(kTilePx); x += lanes) {
+      const auto depth = hn::LoadU(d, frame.depth.data() + row + x);
+      const auto id = hn::LoadU(du, frame.id.data() + row + x);
+      some = hn::Or(some, hn::Or(hn::Ne(depth, hn::Set(d, kFloatInfinity)),
+                                 hn::RebindMask(d, hn::Ne(id, hn::Set(du, kNone)))));
+    }
+    if (!hn::AllFalse(d, some)) return false;
+  }
+  return true;
+}
+
 // Starts a tile from the frame's pixels.
 inline void LoadTile(const TileView& view, const Frame& frame, TileState& state) {
-  StartDirections(view, state);
   const bool whole = view.x + kTilePx <= view.camera.width && view.y + kTilePx <= view.camera.height;
+  if (whole && SeesNothing(view, frame)) {
+    StartTile(view, state);
+    return;
+  }
+  StartDirections(view, state);
   if (!whole) {
     std::fill(std::begin(state.t), std::end(state.t), -kFloatInfinity);
     std::fill(std::begin(state.id), std::end(state.id), 0u);
@@ -152,32 +202,6 @@ inline void LoadTile(const TileView& view, const Frame& frame, TileState& state)
     hn::Store(high, d, state.inverse_high + offset);
     hn::Store(hn::Set(du, TileState::kEarlier), du, state.winner + offset);
     hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
-  }
-  state.changed = ~std::uint64_t{0};
-  state.drawn.count = 0;
-  UpdateLows(state);
-}
-
-// Starts a tile that sees nothing yet.
-inline void StartTile(const TileView& view, TileState& state) {
-  StartDirections(view, state);
-  const int columns = view.camera.width - view.x, rows = view.camera.height - view.y;
-  const hn::CappedTag<float, 16> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
-    hn::Store(hn::Set(d, -kFloatInfinity), d, state.inverse_low + offset);
-    hn::Store(hn::Set(d, TileState::kLeastInverse), d, state.inverse_high + offset);
-    hn::Store(hn::Set(d, kFloatInfinity), d, state.t + offset);
-    hn::Store(hn::Set(du, kNone), du, state.id + offset);
-    hn::Store(hn::Set(du, TileState::kEarlier), du, state.winner + offset);
-    hn::Store(hn::Set(du, TileState::kEarlier), du, state.known + offset);
-  }
-  if (columns < kTilePx || rows < kTilePx) {
-    for (int offset = 0; offset < kTilePixels; ++offset) {
-      if (tile_x(offset) < columns && tile_y(offset) < rows) continue;
-      state.t[offset] = -kFloatInfinity;
-      state.inverse_low[offset] = state.inverse_high[offset] = kFloatInfinity;  // hidden from all
-    }
   }
   state.changed = ~std::uint64_t{0};
   state.drawn.count = 0;
