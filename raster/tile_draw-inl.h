@@ -73,7 +73,10 @@ HWY_INLINE void DrawWideList(const TileJob& job, const MeshTriangles& mesh, std:
     if (i % 8 == 0) UpdateLows(state);
     const bool hidden = list[i].nearest < state.tile_low;  // in all of the tile
     counts.tile(hidden);
-    if (hidden && sorted) return;
+    if (hidden && sorted) {
+      for (++i; i < list.size(); ++i) counts.tile(true);
+      return;
+    }
     if (!hidden) DrawWide(job.view, mesh, *list[i].triangle, state, counts);
   }
 }
@@ -141,7 +144,9 @@ HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileSta
   for (size_t r = 0; r < runs.size(); ++r) {
     const EntryRun& run = runs[r];
     if (run.nearest < state.tile_low) {  // and all that follow
-      counts.tile(true);
+      for (; r < runs.size(); ++r) {
+        for (size_t i = 0; i < runs[r].entries.size(); ++i) counts.tile(true);
+      }
       break;
     }
     if (r + 2 < runs.size()) FetchEntries(runs[r + 2]);

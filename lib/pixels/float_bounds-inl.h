@@ -45,6 +45,29 @@ HWY_INLINE V FloatDot(DF d, V px, V py, V pz, const float row[3]) {
                     hn::MulAdd(py, hn::Set(d, row[1]), hn::Mul(px, hn::Set(d, row[0]))));
 }
 
+// Vertices (x, y, z) on the screen, and how far these places may be off; row_z.p, and its bound; |p|_1. The
+// places say something where the vertex lies in front: pz > 16 ez.
+template <class DF, class V = hn::Vec<DF>>
+HWY_INLINE void ProjectInFloat(DF d, const FloatRows& rows, V x, V y, V z, V& sx, V& sy, V& error_x,
+                               V& error_y, V& pz, V& ez, V& size) {
+  x = hn::Sub(x, hn::Set(d, rows.eye[0]));
+  y = hn::Sub(y, hn::Set(d, rows.eye[1]));
+  z = hn::Sub(z, hn::Set(d, rows.eye[2]));
+  size = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+  const V px = FloatDot(d, x, y, z, rows.x), py = FloatDot(d, x, y, z, rows.y);
+  pz = FloatDot(d, x, y, z, rows.z);
+  const V ex = hn::Mul(size, hn::Set(d, rows.error_x)), ey = hn::Mul(size, hn::Set(d, rows.error_y));
+  ez = hn::Mul(size, hn::Set(d, rows.error_z));
+  const V inverse = hn::Div(hn::Set(d, 1.0f), pz);
+  const V scale = hn::Mul(inverse, hn::Set(d, 1.1f));
+  sx = hn::Mul(px, inverse);
+  sy = hn::Mul(py, inverse);
+  const V size_x = hn::Abs(sx), size_y = hn::Abs(sy);
+  const V off = hn::Set(d, 8.0f * kFloatU);
+  error_x = hn::MulAdd(hn::MulAdd(size_x, ez, ex), scale, hn::Mul(size_x, off));
+  error_y = hn::MulAdd(hn::MulAdd(size_y, ez, ey), scale, hn::Mul(size_y, off));
+}
+
 // One vector of triangles; a bit in `seen` for each that may be seen, and in `open` for those of which this
 // cannot tell.
 template <class DF>
@@ -60,26 +83,14 @@ HWY_INLINE void BoundInFloat(DF d, const Projection& view, const PixelRect& rect
   V x_low = infinity, y_low = infinity, least = infinity;
   V x_high = hn::Neg(infinity), y_high = x_high;
   for (int v = 0; v < 3; ++v) {
-    const auto coordinate = [&](int axis) HWY_ATTR {
-      return hn::Sub(hn::Load(d, corner[3 * v + axis] + lane), hn::Set(d, rows.eye[axis]));
-    };
-    const V x = coordinate(0), y = coordinate(1), z = coordinate(2);
-    const V size = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+    const auto coordinate = [&](int axis) HWY_ATTR { return hn::Load(d, corner[3 * v + axis] + lane); };
+    V sx, sy, error_x, error_y, pz, ez, size;
+    ProjectInFloat(d, rows, coordinate(0), coordinate(1), coordinate(2), sx, sy, error_x, error_y, pz, ez,
+                   size);
     plain = hn::And(plain,
                     hn::And(hn::Ge(size, hn::Set(d, kLeastSize)), hn::Le(size, hn::Set(d, kGreatestSize))));
-    const V px = FloatDot(d, x, y, z, rows.x), py = FloatDot(d, x, y, z, rows.y),
-            pz = FloatDot(d, x, y, z, rows.z);
-    const V ex = hn::Mul(size, hn::Set(d, rows.error_x)), ey = hn::Mul(size, hn::Set(d, rows.error_y));
-    const V ez = hn::Mul(size, hn::Set(d, rows.error_z));
     behind = hn::And(behind, hn::Lt(pz, hn::Neg(ez)));
     in_front = hn::And(in_front, hn::Gt(pz, hn::Mul(ez, hn::Set(d, 16.0f))));
-    const V inverse = hn::Div(hn::Set(d, 1.0f), pz);
-    const V scale = hn::Mul(inverse, hn::Set(d, 1.1f));
-    const V sx = hn::Mul(px, inverse), sy = hn::Mul(py, inverse);
-    const V size_x = hn::Abs(sx), size_y = hn::Abs(sy);
-    const V off = hn::Set(d, 8.0f * kFloatU);
-    const V error_x = hn::MulAdd(hn::MulAdd(size_x, ez, ex), scale, hn::Mul(size_x, off));
-    const V error_y = hn::MulAdd(hn::MulAdd(size_y, ez, ey), scale, hn::Mul(size_y, off));
     x_low = hn::Min(x_low, hn::Sub(sx, error_x));
     x_high = hn::Max(x_high, hn::Add(sx, error_x));
     y_low = hn::Min(y_low, hn::Sub(sy, error_y));

@@ -1,6 +1,6 @@
-// Attacks the rasterizer's planes (raster/setup-inl.h, pixels/tile_planes-inl.h): a search for cameras,
-// triangles and pixels whose edge functions and 1/t are as far from those of the pixel's float ray as
-// possible. Each Highway target by itself.
+// Attacks the rasterizer's planes (pixels/triangle_setup-inl.h, pixels/tile_planes-inl.h): a search for
+// cameras, triangles and pixels whose edge functions and 1/t are as far from those of the pixel's float ray
+// as possible. Each Highway target by itself.
 
 #include "raster/kernels.h"
 
@@ -9,33 +9,46 @@
 #include "hwy/foreach_target.h"
 // After foreach_target.
 #include "hwy/highway.h"
-#include "raster/setup-inl.h"
+#include "raster/binning-inl.h"
 #include "raster/tile_draw-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-// The planes of the mesh's one triangle at a pixel, and their bounds: as values over the frame, where it has
-// such, and about the pixel's tile. False where it is left out, lies elsewhere, or its side is open.
+// The planes of the mesh's one triangle at a pixel, and their bounds: as values over the frame, and about the
+// pixel's tile. False where it is left out, lies elsewhere, or its side is open.
 bool PlaneValues(const Projection& view, MeshView mesh, int x, int y, double screen[2][4],
                  double tile[2][4]) {
-  TileTriangle placed[9];
-  ScreenTriangle wide[9];
-  const SetupCounts made = SetUpTriangles(view, mesh, 0, 1, {placed, wide});
-  for (int i = 0; i < 4; ++i) screen[0][i] = screen[1][i] = kDoubleInfinity;
+  alignas(64) float row[9][kFetched] = {};
+  const float* corner[9];
+  for (int k = 0; k < 9; ++k) {
+    row[k][0] = mesh.positions[static_cast<size_t>(k / 3)][k % 3];
+    corner[k] = row[k];
+  }
+  ScreenBoxes boxes{};
+  const std::uint32_t seen = BoundTriangles<kFetched>(view, WholeFrame(view), corner, 1, boxes);
+  if (seen == 0 || x < boxes.x0[0] || x > boxes.x1[0] || y < boxes.y0[0] || y > boxes.y1[0]) return false;
+  SetupCandidates candidates{};
+  AddCandidates(corner, boxes, seen, 0, candidates);
+  SetupLanes lanes{};
+  std::uint32_t side_open = 0, uncovered = 0;
+  SetUpLanes(view, candidates, 0, lanes, side_open, uncovered);
+  if (((side_open | uncovered) & 1) != 0) return false;
+  for (int i = 0; i < 4; ++i) {
+    screen[0][i] = lanes.c[i][0] + lanes.a[i][0] * x + lanes.b[i][0] * y;
+    screen[1][i] = double{lanes.error[i][0]};
+  }
   const int tile_x = x / kTilePx * kTilePx, tile_y = y / kTilePx * kTilePx;
-  if (made.wide == 1) {
-    const ScreenTriangle& triangle = wide[0];
-    if (triangle.side_open || x < triangle.x0 || x > triangle.x1 || y < triangle.y0 || y > triangle.y1)
-      return false;
-    for (int i = 0; i < 4; ++i) {
-      screen[0][i] = triangle.c[i] + triangle.a[i] * x + triangle.b[i] * y;
-      screen[1][i] = double{triangle.error[i]};
-    }
-    PlaceTriangle(triangle, tile_x, tile_y, placed[0]);
-  } else if (made.placed != 1 || static_cast<int>(placed[0].tile) !=
-                                     tile_y / kTilePx * ((view.width - 1) / kTilePx + 1) + x / kTilePx) {
-    return false;
+  TileTriangle placed[1];
+  if ((x + y) % 2 == 0) {  // as a vector of triangles, or as a wide one by itself
+    const SetupTag d;
+    PlaceLanes(hn::Set(d, tile_x), hn::Set(d, tile_y), lanes);
+    StorePlaced(lanes, 0, candidates, 0, placed[0]);
+  } else {
+    std::vector<ScreenTriangle> wide;
+    SetUpWide(view, candidates, wide);
+    if (wide.size() != 1) return false;
+    PlaceTriangle(wide[0], tile_x, tile_y, placed[0]);
   }
   const int block = (y - tile_y) / kBlockPx * kTileBlocks + (x - tile_x) / kBlockPx;
   const int pixel = (y - tile_y) % kBlockPx * kBlockPx + (x - tile_x) % kBlockPx;
