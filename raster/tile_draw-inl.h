@@ -29,10 +29,9 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Adds a triangle to the tile's drawn ones; returns its place.
-HWY_INLINE std::uint32_t AddWide(const TileView& view, const MeshTriangles& mesh,
-                                 const ScreenTriangle& triangle, TileState& state) {
-  MakeRoom(view, mesh, state, 1);
+// Adds a triangle to the tile's drawn ones; returns its place. There must be room.
+HWY_INLINE std::uint32_t AddWide(const MeshTriangles& mesh, const ScreenTriangle& triangle,
+                                 TileState& state) {
   DrawnTriangles& to = state.drawn;
   const size_t place = to.count++;
   for (int k = 0; k < 6; ++k) to.plane[k][place] = triangle.plane[k];
@@ -47,10 +46,13 @@ HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const 
   if (triangle.x0 >= view.x + kTilePx || triangle.x1 < view.x || triangle.y0 >= view.y + kTilePx ||
       triangle.y1 < view.y)
     return;
+  if (HWY_LIKELY(!triangle.side_open) &&
+      OutsideTile(triangle, view.x, view.y, std::max(state.tile_low, 0.0f)))
+    return;
   TileTriangle placed;
   PlaceTriangle(triangle, view.x, view.y, placed);
-  if (HWY_LIKELY(!triangle.side_open) && OutsideTile(placed)) return;
-  placed.place = AddWide(view, mesh, triangle, state);
+  MakeRoom(view, mesh, state, 1);
+  placed.place = AddWide(mesh, triangle, state);
   DrawBlocks(view, mesh, placed, triangle.side_open, state, counts);
   if (HWY_LIKELY(!triangle.side_open)) return;
   TurnEdges(placed);

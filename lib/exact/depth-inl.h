@@ -93,6 +93,28 @@ HWY_INLINE void RoundQuotients(D d, V quotient, V slack, hn::Vec<hn::Rebind<floa
   certain = hn::And(hn::Eq(t, other), in_range);
 }
 
+// For many rays of one triangle whose |d|_1 is at most `greatest`, the error of the quotient is at most
+// |t| (a + b |t|): |1 / den| is |t / T| but for 3 u, so TriangleQuotients' bound is 1.02 (|t| den's error +
+// T's error) |t / T| + 5 u |t|, with den's error at most `greatest` times den's factor.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PlaneBounds(D d, V t_num, V t_error, V den_factor, double greatest, V& a, V& b) {
+  const V inverse = hn::Div(hn::Set(d, 1.03), hn::Abs(t_num));
+  a = hn::MulAdd(t_error, inverse, hn::Set(d, 6.0 * 0x1p-53));
+  b = hn::Mul(hn::Mul(den_factor, hn::Set(d, greatest)), inverse);
+}
+
+// RN32(t) as RoundQuotients has it, with those bounds. Where den's error is not small beside den, b |t| is
+// not small either, and the ends of the interval round to different floats; where a quotient is below 0, so
+// is t.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PlaneDepths(D d, V dx, V dy, V dz, V nx, V ny, V nz, V t_num, V a, V b,
+                            hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
+  const V den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
+  const V quotient = hn::Div(t_num, den);
+  const V slack = hn::Mul(quotient, hn::MulAdd(b, quotient, a));
+  RoundQuotients(d, quotient, slack, t, certain);
+}
+
 template <class D, class OfRay, class Corner>
 HWY_INLINE void TriangleDepths(D d, const OfRay& ray, const Corner& corner, hn::Vec<hn::Rebind<float, D>>& t,
                                hn::Mask<hn::Rebind<float, D>>& certain) {

@@ -64,6 +64,8 @@ constexpr float kGreatestInverse = 0x1p100f;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 HWY_ALIGN constexpr double kPlaneLimit[4] = {kNoLimit, kNoLimit, kNoLimit, double{kGreatestInverse}};
 
+HWY_ALIGN constexpr double kOutsideRelative[4] = {0x1p-49, 0x1p-49, 0x1p-49, 1.5 * kTileU};
+
 // A plane about a tile's centre (x, y), as TileTriangle has it. `given` is ScreenTriangle's error.
 template <class D, class V = hn::Vec<D>, class VF = hn::Vec<hn::Rebind<float, D>>>
 HWY_INLINE void PlacePlane(D d, V a, V b, V c, V given, V x, V y, V relative, V limit, VF& centre,
@@ -122,15 +124,24 @@ HWY_INLINE void Grow(const TileTriangle& triangle, float half, float grow[4]) {
   }
 }
 
-// Whether no pixel of the tile can be covered, or none with 1/t above 0.
-HWY_INLINE bool OutsideTile(const TileTriangle& triangle) {
-  const hn::CappedTag<float, 4> d;
-  HWY_ALIGN float grow[4];
-  Grow(triangle, 15.5f, grow);
+// Whether no pixel of the tile can be covered, or none with 1/t above `low`, as a bound of 1/t that differs
+// in the rounded t too.
+HWY_INLINE bool OutsideTile(const ScreenTriangle& triangle, int tile_x, int tile_y, float low) {
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> df;
+  const auto x = hn::Set(d, tile_x + 0.5 * (kTilePx - 1));
+  const auto y = hn::Set(d, tile_y + 0.5 * (kTilePx - 1));
+  // What rounds here is far less than the 1e-4 of a slope, and for 1/t than what `relative` has to spare.
+  HWY_ALIGN const double least[4] = {0.0, 0.0, 0.0, double{low}};
   auto outside = hn::FirstN(d, 0);
-  for (size_t i = 0; i < 4; i += hn::Lanes(d))
-    outside =
-        hn::Or(outside, hn::Lt(hn::Add(hn::Load(d, triangle.c + i), hn::Load(d, grow + i)), hn::Zero(d)));
+  for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    const auto a = hn::LoadU(d, triangle.a + i), b = hn::LoadU(d, triangle.b + i);
+    const auto value = hn::MulAdd(b, y, hn::MulAdd(a, x, hn::LoadU(d, triangle.c + i)));
+    const auto rise = hn::Mul(hn::Add(hn::Abs(a), hn::Abs(b)), hn::Set(d, 15.502));
+    const auto error = hn::PromoteTo(d, hn::Load(df, triangle.error + i));
+    const auto relative = hn::MulAdd(hn::Abs(value), hn::Load(d, kOutsideRelative + i), hn::Add(rise, error));
+    outside = hn::Or(outside, hn::Lt(hn::Add(value, relative), hn::Load(d, least + i)));
+  }
   return !hn::AllFalse(d, outside);
 }
 

@@ -235,11 +235,9 @@ HWY_INLINE std::uint32_t BlockDepths(const TileState& state, int block, const Pl
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto ray = [&](int axis) HWY_ATTR { return BlockDirections(d, state, block, lane, axis); };
     const auto of = [&](int k) HWY_ATTR { return plane(d, k, lane); };
-    auto quotient = hn::Zero(d), slack = quotient;
-    PlaneQuotients(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), quotient, slack);
     auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
-    RoundQuotients(d, quotient, slack, depth, certain);
+    PlaneDepths(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), depth, certain);
     hn::Store(depth, df, t + lane);
     bits |= MaskBits(df, certain) << lane;
   }

@@ -21,7 +21,7 @@ struct TileView {
 struct DrawnTriangles {
   static constexpr std::size_t kRoom = 1024;
 
-  alignas(64) double plane[6][kRoom];  ///< N, T, T's error, den's factor: exact/depth-inl.h's TrianglePlane
+  alignas(64) double plane[6][kRoom];  ///< N, T, and exact/depth-inl.h's PlaneBounds
   alignas(64) std::uint32_t id[kRoom];
   std::uint32_t index[kRoom];  ///< among the triangles that the tile is drawn from
   std::size_t count;

@@ -115,8 +115,10 @@ HWY_INLINE void SetUpDepth(const Projection& view, SetupLanes& lanes, const floa
   hn::Store(ny, d, lanes.plane[1]);
   hn::Store(nz, d, lanes.plane[2]);
   hn::Store(t_num, d, lanes.plane[3]);
-  hn::Store(t_error, d, lanes.plane[4]);
-  hn::Store(den_factor, d, lanes.plane[5]);
+  SetupVector bound_a, bound_b;
+  PlaneBounds(d, t_num, t_error, den_factor, 3.01 * view.greatest, bound_a, bound_b);
+  hn::Store(bound_a, d, lanes.plane[4]);
+  hn::Store(bound_b, d, lanes.plane[5]);
   const SetupVector inverse = hn::Div(hn::Set(d, 1.0), t_num);
   const SetupVector relative = hn::Mul(t_error, hn::Abs(inverse));
 
