@@ -31,7 +31,7 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
   const int first = block * kBlockPixels;
   LearnBlock(view, triangles, state, block, pixels);
   HWY_ALIGN float t[kBlockPixels];
-  const std::uint32_t certain = BlockDepthsOf(state, block, triangle, t);
+  const std::uint32_t certain = BlockDepthsOf(BlockRays(state, block), state.drawn, triangle, pixels, t);
   const std::uint32_t id = state.drawn.id[triangle];
   for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
     const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));

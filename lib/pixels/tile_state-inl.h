@@ -217,52 +217,63 @@ HWY_INLINE PlacedTriangle Placed(const Triangles& triangles, const TileState& st
   return {place, state.drawn.id[place], triangles.corners(state.drawn.index[place])};
 }
 
-// One component of the directions of a block's pixels from `lane` on.
-template <class D>
-HWY_INLINE hn::Vec<D> BlockDirections(D d, const TileState& state, int block, size_t lane, int axis) {
-  const auto column = hn::Load(d, state.direction_x[axis] + block % kTileBlocks * kBlockPixels + lane);
-  const auto row = hn::Load(d, state.direction_y[axis] + block / kTileBlocks * kBlockPixels + lane);
-  return Direction(d, column, row);
-}
+// The directions of a block's pixels, component by component.
+struct BlockRays {
+  alignas(64) double direction[3][kBlockPixels];
+
+  HWY_INLINE BlockRays(const TileState& state, int block) {
+    const hn::CappedTag<double, 8> d;
+    const double* const column = state.direction_x[0] + block % kTileBlocks * kBlockPixels;
+    const double* const row = state.direction_y[0] + block / kTileBlocks * kBlockPixels;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const size_t offset = axis * kTileBlocks * kBlockPixels;
+      for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+        const auto of = Direction(d, hn::Load(d, column + offset + lane), hn::Load(d, row + offset + lane));
+        hn::Store(of, d, this->direction[axis] + lane);
+      }
+    }
+  }
+};
 
 // The depths that a block's pixels see, `plane(d, k, lane)` being DrawnTriangles' planes of those from `lane`
-// on; a bit where it is certain.
+// on. Where a bit of `wanted` is set it is stored to `t`; returns those of them that are certain.
 template <class Plane>
-HWY_INLINE std::uint32_t BlockDepths(const TileState& state, int block, const Plane& plane, float* t) {
+HWY_INLINE std::uint32_t BlockDepths(const BlockRays& rays, const Plane& plane, std::uint32_t wanted,
+                                     float* t) {
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto ray = [&](int axis) HWY_ATTR { return BlockDirections(d, state, block, lane, axis); };
+    const auto ray = [&](int axis) HWY_ATTR { return hn::Load(d, rays.direction[axis] + lane); };
     const auto of = [&](int k) HWY_ATTR { return plane(d, k, lane); };
     auto depth = hn::Zero(df);
     auto certain = hn::FirstN(df, 0);
     PlaneDepths(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), depth, certain);
-    hn::Store(depth, df, t + lane);
+    hn::BlendedStore(depth, MaskOfBits(df, wanted >> lane), df, t + lane);
     bits |= MaskBits(df, certain) << lane;
   }
-  return bits;
+  return bits & wanted;
 }
 
 // Of one triangle.
-HWY_INLINE std::uint32_t BlockDepthsOf(const TileState& state, int block, std::uint32_t place, float* t) {
+HWY_INLINE std::uint32_t BlockDepthsOf(const BlockRays& rays, const DrawnTriangles& drawn,
+                                       std::uint32_t place, std::uint32_t wanted, float* t) {
   return BlockDepths(
-      state, block, [&](auto d, int k, size_t) HWY_ATTR { return hn::Set(d, state.drawn.plane[k][place]); },
-      t);
+      rays, [&](auto d, int k, size_t) HWY_ATTR { return hn::Set(d, drawn.plane[k][place]); }, wanted, t);
 }
 
 // Of each pixel's own triangle, whose places are given.
-HWY_INLINE std::uint32_t BlockDepthsOfEach(const TileState& state, int block, const std::uint32_t* place,
-                                           float* t) {
+HWY_INLINE std::uint32_t BlockDepthsOfEach(const BlockRays& rays, const DrawnTriangles& drawn,
+                                           const std::uint32_t* place, std::uint32_t wanted, float* t) {
   return BlockDepths(
-      state, block,
+      rays,
       [&](auto d, int k, size_t lane) HWY_ATTR {
         const hn::Rebind<std::int32_t, decltype(d)> d32;
         const hn::RebindToSigned<decltype(d)> d64;
         const auto index = hn::Load(d32, reinterpret_cast<const std::int32_t*>(place) + lane);
-        return hn::GatherIndex(d, state.drawn.plane[k], hn::PromoteTo(d64, index));
+        return hn::GatherIndex(d, drawn.plane[k], hn::PromoteTo(d64, index));
       },
-      t);
+      wanted, t);
 }
 
 // The pixels of a block whose winner's exact answer is still to be computed, a bit each.
@@ -277,6 +288,10 @@ HWY_INLINE std::uint32_t UnknownBits(const TileState& state, int block) {
   return unknown;
 }
 
+// Of so many triangles of a block each has its pixels' depths computed by itself; then all that are left at
+// once, each pixel with its own triangle, which takes as long as five.
+constexpr int kByThemselves = 5;
+
 // Computes the exact answer of those of a block's pixels whose bit is set.
 template <class Triangles>
 inline void SettleBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
@@ -286,19 +301,25 @@ inline void SettleBlock(const TileView& view, const Triangles& triangles, TileSt
   const hn::RebindToFloat<decltype(d)> df;
   const hn::RebindToSigned<decltype(d)> di;
   const std::uint32_t* winner = state.winner + first;
-  // Whoever is not asked is taken for one that is.
-  const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(unknown)];
-  HWY_ALIGN std::uint32_t place[kBlockPixels];
+  const BlockRays rays(state, block);
   HWY_ALIGN float depth[kBlockPixels];
-  std::uint32_t others = 0;
-  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto asked = MaskOfBits(d, unknown >> lane);
-    const auto own = hn::IfThenElse(asked, hn::Load(d, winner + lane), hn::Set(d, sample));
-    hn::Store(own, d, place + lane);
-    others |= MaskBits(d, hn::Ne(own, hn::Set(d, sample))) << lane;
+  HWY_ALIGN std::uint32_t place[kBlockPixels];
+  std::uint32_t left = unknown, certain = 0;
+  for (int i = 0; i < kByThemselves && left != 0; ++i) {
+    const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
+    std::uint32_t same = 0;
+    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
+      same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
+    same &= left;
+    certain |= BlockDepthsOf(rays, state.drawn, sample, same, depth);
+    left &= ~same;
   }
-  const std::uint32_t certain = unknown & (others == 0 ? BlockDepthsOf(state, block, sample, depth)
-                                                       : BlockDepthsOfEach(state, block, place, depth));
+  for (size_t lane = 0; lane < kBlockPixels;
+       lane += hn::Lanes(d)) {  // whoever is not asked is taken for the first
+    const auto asked = MaskOfBits(d, unknown >> lane);
+    hn::Store(hn::IfThenElseZero(asked, hn::Load(d, winner + lane)), d, place + lane);
+  }
+  if (left != 0) certain |= BlockDepthsOfEach(rays, state.drawn, place, left, depth);
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const auto mask = MaskOfBits(d, certain >> lane);
     const auto own = hn::Load(d, place + lane);
