@@ -35,20 +35,22 @@ FrameDrawer::FrameDrawer(const Camera& camera, const RasterOptions& options)
       kernels_(raster_kernels(resolve_simd(options.simd))),
       bins_(projection_, kernels_) {}
 
-void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, Frame& frame) {
+void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame) {
   check_mesh(mesh, first_id, "rasterize");
   const glm::vec3& eye = camera_.eye;
-  if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)))
-    return;  // no ray sees anything
+  if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z))) {  // no ray sees anything
+    if (fresh) frame.clear();
+    return;
+  }
   with_default_fp_mode([&] {
     if (!options_.progress) {
-      draw_batches(mesh, first_id, frame);
+      draw_batches(mesh, first_id, fresh, frame);
       return;
     }
     // What can be cancelled, or whose callback may throw, must be able to take everything back.
     Frame before = frame;
     try {
-      draw_batches(mesh, first_id, frame);
+      draw_batches(mesh, first_id, fresh, frame);
     } catch (...) {
       frame = std::move(before);
       throw;
@@ -56,8 +58,9 @@ void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, Frame& frame) {
   });
 }
 
-void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, Frame& frame) {
+void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame) {
   const std::size_t count = mesh.triangles.size();
+  if (count == 0 && fresh) frame.clear();
   Progress progress(options_.progress, count);
   for (std::size_t first = 0; first < count && !progress.cancelled();) {
     const std::size_t end = bins_.fill(mesh, first, count, options_.threads);
@@ -65,22 +68,28 @@ void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, Frame& fra
     const std::size_t tiles = bins_.tiles().size();
     parallel_for(tiles, options_.threads, [&](std::size_t i) {
       if (progress.cancelled()) return;
-      draw_tile(mesh, first_id, i, frame);
+      draw_tile(mesh, first_id, i, fresh, frame);
       progress.add((end - first) * (i + 1) / tiles - (end - first) * i / tiles);
     });
     first = end;
+    fresh = false;
   }
   progress.throw_if_cancelled();
 }
 
-void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const {
+void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, bool fresh,
+                            Frame& frame) const {
   TileContents contents;
   bins_.collect(tile, contents);
-  if (contents.empty()) return;
+  if (contents.empty() && !fresh) return;
   const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
   const TileView view{camera_, projection_.exact_only, static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
-  const TileJob job{projection_, view, contents};
+  if (contents.empty()) {
+    clear_tile(view, frame);
+    return;
+  }
+  const TileJob job{projection_, view, contents, fresh};
   const MeshTriangles triangles{mesh, first_id};
   if (counts_ != nullptr) {
     kernels_.count_tile(job, triangles, frame, *counts_);

@@ -23,16 +23,17 @@ class FrameDrawer {
   const Camera& camera() const { return camera_; }
   const RasterOptions& options() const { return options_; }
 
-  /// Merges the mesh into the frame. Throws plumb::Error for a mesh that is at fault, Cancelled when the
-  /// progress callback says so, and whatever that throws; in each case the frame is as it was.
-  void draw(MeshView mesh, std::uint32_t first_id, Frame& frame);
+  /// Merges the mesh into the frame, or with `fresh` overwrites it. Throws plumb::Error for a mesh that is at
+  /// fault, Cancelled when the progress callback says so, and whatever that throws; in each case the frame is
+  /// as it was.
+  void draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame);
 
   /// From now on counts what is tested; for one thread only. The counts must outlive the drawer.
   void count(RasterCounts& counts) { counts_ = &counts; }
 
  private:
-  void draw_batches(MeshView mesh, std::uint32_t first_id, Frame& frame);
-  void draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, Frame& frame) const;
+  void draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame);
+  void draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, bool fresh, Frame& frame) const;
 
   Camera camera_;
   RasterOptions options_;

@@ -36,6 +36,7 @@ struct TileJob {
   const Projection& projection;
   const TileView& view;
   const TileContents& contents;
+  bool fresh;  ///< what the frame holds does not count
 };
 
 /// The steps of rasterizing that are compiled per SIMD target. Callers hold the default floating-point

@@ -29,6 +29,7 @@ struct Rasterizer::Impl {
 
   detail::FrameDrawer drawer;
   Frame drawn;
+  bool empty = true;  // nothing was drawn since it was made or cleared, and `drawn` is anything
 };
 
 Rasterizer::Rasterizer(const Camera& camera, const RasterOptions& options)
@@ -38,13 +39,15 @@ Rasterizer::Rasterizer(Rasterizer&&) noexcept = default;
 Rasterizer& Rasterizer::operator=(Rasterizer&&) noexcept = default;
 
 void Rasterizer::draw(MeshView mesh, std::uint32_t first_id) {
-  impl_->drawer.draw(mesh, first_id, impl_->drawn);
+  impl_->drawer.draw(mesh, first_id, impl_->empty, impl_->drawn);
+  impl_->empty = false;
 }
 
 void Rasterizer::draw(MeshView mesh) { draw(mesh, impl_->drawer.options().first_id); }
 
 void Rasterizer::resolve(Frame& frame) const {
   detail::check_frame(frame, impl_->drawer.camera());
+  if (impl_->empty) return;
   const Frame& drawn = impl_->drawn;
   const std::size_t pixels = drawn.depth.size();
   detail::parallel_for((pixels + kRun - 1) / kRun, impl_->drawer.options().threads, [&](std::size_t run) {
@@ -54,7 +57,7 @@ void Rasterizer::resolve(Frame& frame) const {
   });
 }
 
-void Rasterizer::clear() { impl_->drawn.clear(); }
+void Rasterizer::clear() { impl_->empty = true; }
 
 RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const RasterOptions& options) {
   RasterOptions alone = options;
@@ -65,13 +68,13 @@ RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const Raste
   counts.triangles = mesh.triangles.size();
   drawer.count(counts);
   Frame frame(camera.width, camera.height);
-  drawer.draw(mesh, options.first_id, frame);
+  drawer.draw(mesh, options.first_id, true, frame);
   return counts;
 }
 
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options) {
   detail::check_frame(frame, camera);
-  detail::FrameDrawer(camera, options).draw(mesh, options.first_id, frame);
+  detail::FrameDrawer(camera, options).draw(mesh, options.first_id, options.overwrite, frame);
 }
 
 }  // namespace plumb

@@ -168,7 +168,11 @@ HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileSta
 template <class Counts>
 HWY_INLINE void DrawContents(const TileJob& job, const MeshTriangles& mesh, Frame& frame, Counts& counts) {
   TileState state;
-  LoadTile(job.view, frame, state);
+  if (job.fresh) {
+    StartTile(job.view, state);
+  } else {
+    LoadTile(job.view, frame, state);
+  }
   for (const std::span<const WideEntry> list : job.contents.sorted)
     DrawWideList(job, mesh, list, true, state, counts);
   DrawWideList(job, mesh, job.contents.wide, false, state, counts);

@@ -361,18 +361,6 @@ HWY_INLINE void MakeRoom(const TileView& view, const Triangles& triangles, TileS
   state.drawn.count = 0;
 }
 
-// Gives the frame what a tile sees that nothing was drawn into.
-inline void ClearTile(const TileView& view, Frame& frame) {
-  const int columns = std::min(kTilePx, view.camera.width - view.x);
-  const int rows = std::min(kTilePx, view.camera.height - view.y);
-  for (int y = view.y; y < view.y + rows; ++y) {
-    const size_t first =
-        static_cast<size_t>(y) * static_cast<size_t>(view.camera.width) + static_cast<size_t>(view.x);
-    std::fill_n(frame.depth.data() + first, columns, kFloatInfinity);
-    std::fill_n(frame.id.data() + first, columns, kNone);
-  }
-}
-
 // Gives the frame what the tile won.
 template <class Triangles>
 inline void StoreTile(const TileView& view, const Triangles& triangles, TileState& state, Frame& frame) {

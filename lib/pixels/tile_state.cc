@@ -1,5 +1,9 @@
 #include "pixels/tile_state.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
 #include "scene/pixel_direction.h"
 
 namespace plumb::detail {
@@ -30,6 +34,17 @@ bool decide_pixel(const TileView& view, TileState& state, int offset, const Plac
   state.t[offset] = t;
   state.id[offset] = triangle.id;
   return true;
+}
+
+void clear_tile(const TileView& view, Frame& frame) {
+  const int columns = std::min(kTilePx, view.camera.width - view.x);
+  const int rows = std::min(kTilePx, view.camera.height - view.y);
+  for (int y = view.y; y < view.y + rows; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.camera.width) +
+                              static_cast<std::size_t>(view.x);
+    std::fill_n(frame.depth.data() + first, columns, std::numeric_limits<float>::infinity());
+    std::fill_n(frame.id.data() + first, columns, kNone);
+  }
 }
 
 }  // namespace plumb::detail

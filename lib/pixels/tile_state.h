@@ -6,6 +6,7 @@
 #include "exact/intersect.h"
 #include "pixels/tile.h"
 #include "plumb/camera.h"
+#include "plumb/frame.h"
 
 namespace plumb::detail {
 
@@ -72,5 +73,8 @@ void learn_pixel(const TileView& view, TileState& state, int offset, const Place
 /// Decides whether the triangle wins the pixel, whose winner must be known. The bounds of 1/t are left
 /// to the caller. True when it does.
 bool decide_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& triangle);
+
+/// Gives the frame what a tile sees that nothing was drawn into.
+void clear_tile(const TileView& view, Frame& frame);
 
 }  // namespace plumb::detail

@@ -25,6 +25,9 @@ struct RasterOptions {
   /// that draw() remains. So it is when the callback throws, and its exception comes out. With a
   /// callback each draw() first copies what was drawn, 8 bytes a pixel.
   std::function<bool(double)> progress = nullptr;
+  /// Of rasterize(): the mesh alone is drawn, over whatever the frame held, which saves clearing and reading
+  /// it. Of no meaning for a Rasterizer, which holds a frame of its own.
+  bool overwrite = false;
 };
 
 /// Draws triangles into tiles over many calls, then resolves them into a frame.
@@ -83,8 +86,9 @@ struct RasterCounts {
 /// are not looked at. Throws what rasterize() throws.
 RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const RasterOptions& options = {});
 
-/// Draws a mesh as the camera sees it and merges it into the frame by (t, id); a clear frame gives
-/// the picture alone. Throws what Rasterizer does, and then leaves the frame as it was.
+/// Draws a mesh as the camera sees it and merges it into the frame by (t, id); a clear frame, or any with
+/// RasterOptions::overwrite, gives the picture alone. Throws what Rasterizer does, and then leaves the frame
+/// as it was.
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options = {});
 
 }  // namespace plumb
