@@ -79,7 +79,8 @@ CompareReport compare_runs(const std::vector<Run>& runs, const Scene& scene, con
   std::optional<Frame> first;
   for (const Run& run : runs) {
     RunResult result = execute(run, scene.mesh, scene.camera, options.frame.threads, progress_bar);
-    report.runs.push_back({run, result.build_seconds, result.frame_seconds, count_seen(result.frame), {}});
+    report.runs.push_back(
+        {run, result.build_seconds, result.frame_seconds, count_seen(result.frame), {}, result.choice});
     RunReport& entry = report.runs.back();
     fmt::print(stderr, "  {}", timing(entry, longest_name(runs)));
     if (options.out) entry.files = write_pictures(*options.out, run.name, result.frame);

@@ -74,6 +74,8 @@ const std::vector<MethodInfo>& all_methods() {
        false},
       {Method::Tile, "tile", "tiles of pixels through the tree of 8 children a node", true, true},
       {Method::Raster, "raster", "the rasterizer", true, true},
+      {Method::Auto, "auto", "tile or raster, whichever promises to be faster for scene and camera", true,
+       false},
   };
   return kMethods;
 }
@@ -163,7 +165,7 @@ Structure build_method(Method method, MeshView mesh, Simd simd, int threads,
 
 RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threads,
                   const ProgressFor& progress) {
-  RunResult result{Frame(camera.width, camera.height), std::nullopt, 0.0};
+  RunResult result{Frame(camera.width, camera.height), std::nullopt, 0.0, std::nullopt};
   const Simd simd = run.simd.value_or(Simd::Auto);
   const std::function<bool(double)> frame_progress = progress(run.name + ": frame");
   if (run.method == Method::Raster) {
@@ -173,6 +175,12 @@ RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threa
   const Stopwatch build_watch;
   const Structure structure = build_method(run.method, mesh, simd, threads, progress(run.name + ": build"));
   result.build_seconds = build_watch.seconds();
+  if (run.method == Method::Auto) {
+    const Stopwatch watch;
+    result.choice = visible(mesh, structure, camera, result.frame, {threads, simd, 0, frame_progress});
+    result.frame_seconds = watch.seconds();
+    return result;
+  }
   CastOptions options;
   options.threads = threads;
   options.method = run.method == Method::Tile ? CastMethod::Tiles : CastMethod::Rays;

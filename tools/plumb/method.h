@@ -11,11 +11,12 @@
 #include "plumb/mesh.h"
 #include "plumb/simd.h"
 #include "plumb/structure.h"
+#include "plumb/visible.h"
 
 namespace plumb::tool {
 
 /// A way to make a frame.
-enum class Method { Brute, Bvh2, Bvh4, Bvh8, KdTree, Grid, Octree, Spheres, Tile, Raster };
+enum class Method { Brute, Bvh2, Bvh4, Bvh8, KdTree, Grid, Octree, Spheres, Tile, Raster, Auto };
 
 struct MethodInfo {
   Method method;
@@ -60,6 +61,7 @@ struct RunResult {
   Frame frame;
   std::optional<double> build_seconds;  ///< of the tree; a method without one has none
   double frame_seconds = 0;
+  std::optional<VisibleChoice> choice;  ///< of Method::Auto
 };
 
 /// Makes the frame.

@@ -55,8 +55,8 @@ ExitStatus run_render(const RenderOptions& options) {
   fmt::print(stderr, "{}\n", describe(scene));
   const RunResult result = execute(run, scene.mesh, scene.camera, options.frame.threads, progress_bar);
   write_file(options.out, encode_exr(result.frame));
-  fmt::print(stderr, "  {}\nwrote {}\n", timing({run, result.build_seconds, result.frame_seconds, 0, {}}, 0),
-             options.out);
+  fmt::print(stderr, "  {}\nwrote {}\n",
+             timing({run, result.build_seconds, result.frame_seconds, 0, {}, result.choice}, 0), options.out);
   return kAgree;
 }
 

@@ -44,6 +44,9 @@ Json run_json(const RunReport& report) {
   json["frame_seconds"] = report.frame_seconds;
   json["seen_pixels"] = report.seen_pixels;
   json["files"] = report.files;
+  if (report.choice)
+    json["choice"] = {{"method", visible_method_name(report.choice->method)},
+                      {"reason", report.choice->reason}};
   return json;
 }
 
@@ -73,8 +76,12 @@ Json pair_json(const Pair& pair) {
 }  // namespace
 
 std::string timing(const RunReport& report, std::size_t name_width) {
-  return fmt::format("{:<{}}  build {:>10}  frame {:>10}", report.run.name, name_width,
-                     milliseconds(report.build_seconds), milliseconds(report.frame_seconds));
+  const std::string choice =
+      report.choice
+          ? fmt::format("  took {}: {}", visible_method_name(report.choice->method), report.choice->reason)
+          : "";
+  return fmt::format("{:<{}}  build {:>10}  frame {:>10}{}", report.run.name, name_width,
+                     milliseconds(report.build_seconds), milliseconds(report.frame_seconds), choice);
 }
 
 std::string verdict(const CompareReport& report) {

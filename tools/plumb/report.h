@@ -16,8 +16,9 @@ struct RunReport {
   Run run;
   std::optional<double> build_seconds;
   double frame_seconds = 0;
-  std::size_t seen_pixels = 0;     ///< pixels that see a triangle
-  std::vector<std::string> files;  ///< written with --out
+  std::size_t seen_pixels = 0;          ///< pixels that see a triangle
+  std::vector<std::string> files;       ///< written with --out
+  std::optional<VisibleChoice> choice;  ///< of Method::Auto
 };
 
 /// A comparison of several runs on one scene.

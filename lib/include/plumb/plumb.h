@@ -41,3 +41,4 @@
 #include "plumb/topology.h"
 #include "plumb/uniform_grid.h"
 #include "plumb/version.h"
+#include "plumb/visible.h"
