@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "embree_peer.h"
+#include "llvmpipe_peer.h"
 #include "machine.h"
 #include "options.h"
 #include "ours.h"
@@ -35,6 +36,7 @@ std::vector<Task> all_tasks(const ViewName& name, const Options& options, int th
   const Context context{name, threads, trees, options.peer_isa, workload};
   std::vector<Task> tasks = our_tasks(context, options.targets);
   for (Task& task : embree_tasks(context)) tasks.push_back(std::move(task));
+  for (Task& task : llvmpipe_tasks(context)) tasks.push_back(std::move(task));
   const auto wants = [](const std::vector<std::string>& wanted, const std::string& name_of) {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), name_of) != wanted.end();
   };
@@ -104,6 +106,12 @@ void print_view(const ViewName& name, const Workload& workload, int threads) {
 
 void print_head(const Options& options) {
   std::cout << machine_name() << "; " << compiler_name() << "; medians of " << options.rounds << " rounds.\n";
+  const std::string rasterizer = llvmpipe_version();
+  if (!rasterizer.empty()) {
+    std::cout << "`llvmpipe` is Mesa's " << rasterizer
+              << ", drawing into 32 bits of id and depth from buffers that stay, without reading back; on "
+              << options.threads.front() << " thread(s).\n";
+  }
   const std::string peer = embree_version();
   if (peer.empty()) return;
   const std::string baseline = options.peers ? "the fastest of the calls and trees of its fast mode that are "
@@ -145,6 +153,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   try {
     const Options options = parse_options(argc, argv);
+    set_llvmpipe_threads(options.threads.front());
     if (options.help) {
       std::cout << kUsage;
     } else if (options.table) {

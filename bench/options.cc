@@ -15,14 +15,14 @@ const char* const kUsage =
     R"(plumb_bench [SCENE...] [--table] [options] [--benchmark_...]
 
 Builds, camera, shadow and diffuse rays and frames, by every method, tree width and instruction set, with
-Embree beside them where it is installed. Exact methods' answers must be the binary BVH's, bit for bit,
+Embree and llvmpipe beside them where they are installed. Exact methods' answers must be the binary BVH's, bit for bit,
 before a time counts; those of the fast and the watertight arithmetic and of Embree are counted.
 
   SCENE            builtin:NAME[:SIZE], a mesh FILE, or FILE@VIEW; unless said, the built-in scenes
   --cameras=LIST   the views of mesh files, a line each: scene view eye target up fov_y_degrees
   --table          tables in Markdown, all methods interleaved, instead of Google Benchmark's list
   --peers          the same, against the fastest of all of Embree's calls and trees
-  --methods=LIST   only these methods, with commas: raster,bvh8,bvh8-single,bvh8-best-build,embree-fast-16
+  --methods=LIST   only these methods, with commas: raster,auto,llvmpipe,bvh8,bvh8-single,bvh8-best-build,embree-fast-16
   --works=LIST     only these: camera,shadow,occlusion,diffuse,random,frame,build
   --rounds=N       how often the table runs each method; it shows medians (5)
   --threads=LIST   counts or "all", with commas (1,all)

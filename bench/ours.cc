@@ -10,6 +10,7 @@
 #include "plumb/cast.h"
 #include "plumb/frame.h"
 #include "plumb/raster.h"
+#include "plumb/visible.h"
 
 namespace plumb::bench {
 namespace {
@@ -127,12 +128,20 @@ Task tile_task(const TreeSource& source) {
   });
 }
 
+Task auto_task(const TreeSource& source) {
+  return frame_task("auto", source.target(), true, source.context, [=](Workload& workload) {
+    VisibleOptions options;
+    options.threads = source.context.threads;
+    visible(workload.view.mesh, *source.tree(workload), workload.view.camera, workload.frame, options);
+  });
+}
+
 Task raster_task(const Context& context, Simd simd) {
   RasterOptions options;
   options.threads = context.threads;
   options.simd = simd;
+  options.overwrite = true;
   return frame_task("raster", std::string(simd_name(simd)), true, context, [=](Workload& workload) {
-    workload.frame.clear();
     rasterize(workload.view.mesh, workload.view.camera, workload.frame, options);
   });
 }
@@ -186,7 +195,10 @@ std::vector<Task> our_tasks(const Context& context, const std::vector<Simd>& tar
       source.options.simd = simd;
       add_tree_tasks(source, simd == targets.front(), tasks);
       if (width == 8) add_ray_tasks(source, true, tasks);
-      if (width == 8) tasks.push_back(tile_task(source));
+      if (width == 8) {
+        tasks.push_back(tile_task(source));
+        tasks.push_back(auto_task(source));
+      }
     }
   }
   for (const Quality quality : {Quality::Fast, Quality::Best}) {

@@ -66,7 +66,9 @@ std::unique_ptr<OsmesaContext> OsmesaContext::open() {
       PLUMB_LOAD(GenFramebuffers) && PLUMB_LOAD(GenRenderbuffers) && PLUMB_LOAD(GenVertexArrays) &&
       PLUMB_LOAD(GetError) && PLUMB_LOAD(GetProgramiv) && PLUMB_LOAD(GetString) && PLUMB_LOAD(LinkProgram) &&
       PLUMB_LOAD(ReadPixels) && PLUMB_LOAD(RenderbufferStorage) && PLUMB_LOAD(ShaderSource) &&
-      PLUMB_LOAD(UseProgram) && PLUMB_LOAD(VertexAttribPointer) && PLUMB_LOAD(Viewport);
+      PLUMB_LOAD(DrawElements) && PLUMB_LOAD(Finish) && PLUMB_LOAD(GetUniformLocation) &&
+      PLUMB_LOAD(UniformMatrix4fv) && PLUMB_LOAD(UseProgram) && PLUMB_LOAD(VertexAttribPointer) &&
+      PLUMB_LOAD(Viewport);
 #undef PLUMB_LOAD
   return complete ? std::move(result) : nullptr;
 }
