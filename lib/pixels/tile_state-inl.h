@@ -292,44 +292,59 @@ HWY_INLINE std::uint32_t UnknownBits(const TileState& state, int block) {
 // once, each pixel with its own triangle, which takes as long as five.
 constexpr int kByThemselves = 5;
 
-// Computes the exact answer of those of a block's pixels whose bit is set.
+// Notes who is known of a block's pixels whose bit is set: the triangle of that place and id, at the depths
+// that are there already.
+HWY_INLINE void NoteKnown(TileState& state, size_t first, std::uint32_t place, std::uint32_t pixels) {
+  const hn::CappedTag<std::uint32_t, 16> d;
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto mask = MaskOfBits(d, pixels >> lane);
+    hn::BlendedStore(hn::Set(d, state.drawn.id[place]), mask, d, state.id + first + lane);
+    hn::BlendedStore(hn::Set(d, place), mask, d, state.known + first + lane);
+  }
+}
+
+// The same of each pixel's own triangle.
+HWY_INLINE void NoteEachKnown(TileState& state, size_t first, std::uint32_t pixels) {
+  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
+    const size_t pixel = first + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    const std::uint32_t place = state.winner[pixel];
+    state.known[pixel] = place;
+    state.id[pixel] = state.drawn.id[place];
+  }
+}
+
+// Computes the exact answer of those of a block's pixels whose bit is set. A depth that turns out not to be
+// certain is overwritten.
 template <class Triangles>
 inline void SettleBlock(const TileView& view, const Triangles& triangles, TileState& state, int block,
                         std::uint32_t unknown) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
-  const hn::RebindToFloat<decltype(d)> df;
-  const hn::RebindToSigned<decltype(d)> di;
   const std::uint32_t* winner = state.winner + first;
   const BlockRays rays(state, block);
-  HWY_ALIGN float depth[kBlockPixels];
-  HWY_ALIGN std::uint32_t place[kBlockPixels];
-  std::uint32_t left = unknown, certain = 0;
+  std::uint32_t left = unknown, open = 0;
   for (int i = 0; i < kByThemselves && left != 0; ++i) {
     const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
     std::uint32_t same = 0;
     for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
       same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
     same &= left;
-    certain |= BlockDepthsOf(rays, state.drawn, sample, same, depth);
+    open |= same & ~BlockDepthsOf(rays, state.drawn, sample, same, state.t + first);
+    NoteKnown(state, first, sample, same);
     left &= ~same;
   }
-  for (size_t lane = 0; lane < kBlockPixels;
-       lane += hn::Lanes(d)) {  // whoever is not asked is taken for the first
-    const auto asked = MaskOfBits(d, unknown >> lane);
-    hn::Store(hn::IfThenElseZero(asked, hn::Load(d, winner + lane)), d, place + lane);
+  if (left != 0) {
+    HWY_ALIGN std::uint32_t place[kBlockPixels];
+    for (size_t lane = 0; lane < kBlockPixels;
+         lane += hn::Lanes(d)) {  // who is not asked is taken for the first
+      const auto asked = MaskOfBits(d, left >> lane);
+      hn::Store(hn::IfThenElseZero(asked, hn::Load(d, winner + lane)), d, place + lane);
+    }
+    open |= left & ~BlockDepthsOfEach(rays, state.drawn, place, left, state.t + first);
+    NoteEachKnown(state, first, left);
   }
-  if (left != 0) certain |= BlockDepthsOfEach(rays, state.drawn, place, left, depth);
-  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto mask = MaskOfBits(d, certain >> lane);
-    const auto own = hn::Load(d, place + lane);
-    const auto id = hn::GatherIndex(d, state.drawn.id, hn::BitCast(di, own));
-    hn::BlendedStore(hn::Load(df, depth + lane), hn::RebindMask(df, mask), df, state.t + first + lane);
-    hn::BlendedStore(id, mask, d, state.id + first + lane);
-    hn::BlendedStore(own, mask, d, state.known + first + lane);
-  }
-  for (std::uint32_t bits = unknown & ~certain; bits != 0; bits &= bits - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+  for (; open != 0; open &= open - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
     learn_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, winner[i]));
   }
 }
