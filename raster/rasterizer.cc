@@ -77,4 +77,21 @@ void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOp
   detail::FrameDrawer(camera, options).draw(mesh, options.first_id, options.overwrite, frame);
 }
 
+void rasterize(MeshView mesh, std::span<const Camera> cameras, std::span<Frame> frames,
+               const RasterOptions& options) {
+  detail::check_frames(frames, cameras, "rasterize");
+  const auto threads = static_cast<std::size_t>(detail::thread_count(options.threads));
+  const bool many = cameras.size() >= threads;
+  detail::Progress progress(options.progress, cameras.size());
+  detail::parallel_for(cameras.size(), many ? options.threads : 1, [&](std::size_t i) {
+    if (progress.cancelled()) return;
+    RasterOptions of_one = options;
+    of_one.progress = nullptr;
+    if (many) of_one.threads = 1;
+    rasterize(mesh, cameras[i], frames[i], of_one);
+    progress.add(1);
+  });
+  progress.throw_if_cancelled();
+}
+
 }  // namespace plumb

@@ -26,4 +26,18 @@ void check_frame(const Frame& frame, const Camera& camera) {
   }
 }
 
+void check_frames(std::span<const Frame> frames, std::span<const Camera> cameras, const std::string& who) {
+  if (cameras.size() != frames.size()) {
+    throw Error("plumb: " + who + "() was given " + std::to_string(cameras.size()) + " cameras but " +
+                std::to_string(frames.size()) + " frames; give it one for each");
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    try {
+      check_frame(frames[i], cameras[i]);
+    } catch (const Error& error) {
+      throw Error("plumb: " + who + "(): frame " + std::to_string(i) + ": " + error.what());
+    }
+  }
+}
+
 }  // namespace plumb::detail

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <deque>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "base/fp_mode.h"
 #include "base/parallel.h"
@@ -60,62 +65,94 @@ void cast_block(const Structure& structure, const Camera& camera, int x0, int y0
   });
 }
 
-void cast_rays(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
-  const auto columns = static_cast<std::size_t>((camera.width + kBlockSide - 1) / kBlockSide);
-  const auto rows = static_cast<std::size_t>((camera.height + kBlockSide - 1) / kBlockSide);
-  detail::Progress progress(options.progress, columns * rows);
-  detail::parallel_for(columns * rows, options.threads, [&](std::size_t block) {
-    if (progress.cancelled()) return;
-    const int x0 = static_cast<int>(block % columns) * kBlockSide;
-    const int y0 = static_cast<int>(block / columns) * kBlockSide;
-    cast_block(structure, camera, x0, y0, frame);
-    progress.add(1);
-  });
-  progress.throw_if_cancelled();
-}
+// A frame to be cast, piece by piece: squares of pixels, or tiles where the structure is walked for those.
+class FrameJob {
+ public:
+  FrameJob(const Structure& structure, const Camera& camera, Frame& frame, CastMethod method)
+      : structure_(structure), camera_(camera), frame_(frame) {
+    const detail::StructureData& data = structure.data();
+    if (method != CastMethod::Rays && data.tiles_for != nullptr) prepare_tiles(data);
+    const int side = caster_ ? detail::kTilePx : kBlockSide;
+    columns_ = static_cast<std::size_t>((camera.width - 1) / side + 1);
+    pieces_ = columns_ * static_cast<std::size_t>((camera.height - 1) / side + 1);
+  }
 
-// False, with nothing done, where tiles cannot be culled.
-bool cast_tiles(const detail::StructureData& data, const Camera& camera, Frame& frame,
-                const CastOptions& options) {
-  const glm::vec3& eye = camera.eye;
-  if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z))) return false;
-  const detail::TileCaster caster = data.tiles_for(data.simd);
-  const detail::Projection projection(camera);
-  const detail::FrameFrustum frustum(projection, caster.greatest(data.structure.get()));
-  if (!frustum.usable) return false;
-  const auto columns = static_cast<std::size_t>((camera.width - 1) / detail::kTilePx + 1);
-  const auto rows = static_cast<std::size_t>((camera.height - 1) / detail::kTilePx + 1);
-  detail::Progress progress(options.progress, columns * rows);
-  detail::parallel_for(columns * rows, options.threads, [&](std::size_t tile) {
-    if (progress.cancelled()) return;
-    const detail::TileView view{camera, projection.exact_only,
-                                static_cast<int>(tile % columns) * detail::kTilePx,
-                                static_cast<int>(tile / columns) * detail::kTilePx};
-    caster.cast(data.structure.get(), frustum, view, frame);
-    progress.add(1);
-  });
-  progress.throw_if_cancelled();
-  return true;
-}
+  std::size_t pieces() const { return pieces_; }
 
-void cast_frame(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
-  detail::check_frame(frame, camera);
-  const detail::StructureData& data = structure.data();
-  if (options.method == CastMethod::Tiles && data.tiles_for == nullptr)
+  void cast(std::size_t piece) const {
+    const int column = static_cast<int>(piece % columns_), row = static_cast<int>(piece / columns_);
+    if (!caster_) {
+      cast_block(structure_, camera_, column * kBlockSide, row * kBlockSide, frame_);
+      return;
+    }
+    const detail::TileView view{camera_, projection_->exact_only, column * detail::kTilePx,
+                                row * detail::kTilePx};
+    caster_->cast(structure_.data().structure.get(), *frustum_, view, frame_);
+  }
+
+ private:
+  // Leaves rays to be cast where tiles cannot be culled.
+  void prepare_tiles(const detail::StructureData& data) {
+    const glm::vec3& eye = camera_.eye;
+    if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z))) return;
+    detail::with_default_fp_mode([&] {
+      const detail::TileCaster caster = data.tiles_for(data.simd);
+      projection_.emplace(camera_);
+      frustum_.emplace(*projection_, caster.greatest(data.structure.get()));
+      if (frustum_->usable) caster_ = caster;
+    });
+  }
+
+  const Structure& structure_;
+  const Camera& camera_;
+  Frame& frame_;
+  std::optional<detail::Projection> projection_;
+  std::optional<detail::FrameFrustum> frustum_;
+  std::optional<detail::TileCaster> caster_;
+  std::size_t columns_ = 0, pieces_ = 0;
+};
+
+void check_method(const Structure& structure, CastMethod method) {
+  if (method == CastMethod::Tiles && structure.data().tiles_for == nullptr)
     throw Error("plumb: CastMethod::Tiles takes a Bvh of width 4 or 8 with Arithmetic::Exact, not compact");
-  const bool tiles = options.method != CastMethod::Rays && data.tiles_for != nullptr;
-  if (tiles && detail::with_default_fp_mode([&] { return cast_tiles(data, camera, frame, options); })) return;
-  cast_rays(structure, camera, frame, options);
+}
+
+// The pieces of all frames are one piece of work.
+void cast_frames(const Structure& structure, std::span<const Camera> cameras, std::span<Frame> frames,
+                 const CastOptions& options) {
+  check_method(structure, options.method);
+  std::deque<FrameJob> jobs;  // they do not move
+  std::vector<std::size_t> first;
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    jobs.emplace_back(structure, cameras[i], frames[i], options.method);
+    first.push_back(pieces);
+    pieces += jobs.back().pieces();
+  }
+  detail::Progress progress(options.progress, pieces);
+  detail::parallel_for(pieces, options.threads, [&](std::size_t piece) {
+    if (progress.cancelled()) return;
+    const auto after = std::upper_bound(first.begin(), first.end(), piece);
+    const auto frame = static_cast<std::size_t>(after - first.begin()) - 1;
+    jobs[frame].cast(piece - first[frame]);
+    progress.add(1);
+  });
+  progress.throw_if_cancelled();
 }
 
 }  // namespace
 
 void cast(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options) {
-  if (options.simd == Simd::Auto) {
-    cast_frame(structure, camera, frame, options);
-  } else {
-    cast_frame(structure.with_simd(options.simd), camera, frame, options);
-  }
+  detail::check_frame(frame, camera);
+  const Structure cast_through = options.simd == Simd::Auto ? structure : structure.with_simd(options.simd);
+  cast_frames(cast_through, {&camera, 1}, {&frame, 1}, options);
+}
+
+void cast(const Structure& structure, std::span<const Camera> cameras, std::span<Frame> frames,
+          const CastOptions& options) {
+  detail::check_frames(frames, cameras, "cast");
+  const Structure cast_through = options.simd == Simd::Auto ? structure : structure.with_simd(options.simd);
+  cast_frames(cast_through, cameras, frames, options);
 }
 
 }  // namespace plumb

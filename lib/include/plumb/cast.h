@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "plumb/camera.h"
 #include "plumb/frame.h"
@@ -41,5 +42,11 @@ struct CastOptions {
 /// frame as it was, when the frame's size is not the camera's, when it does not hold a depth and an id
 /// for each pixel, and for options out of range; and Cancelled when the options' progress says so.
 void cast(const Structure& structure, const Camera& camera, Frame& frame, const CastOptions& options = {});
+
+/// The same for many cameras, frames[i] that of cameras[i]: the threads share the work of all, so that many
+/// small frames keep them as busy as a large one. Throws as above, naming the frame by its index, and when
+/// there are not as many frames as cameras; then all frames are as they were.
+void cast(const Structure& structure, std::span<const Camera> cameras, std::span<Frame> frames,
+          const CastOptions& options = {});
 
 }  // namespace plumb

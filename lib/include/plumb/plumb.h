@@ -42,3 +42,4 @@
 #include "plumb/uniform_grid.h"
 #include "plumb/version.h"
 #include "plumb/visible.h"
+#include "plumb/visible_triangles.h"

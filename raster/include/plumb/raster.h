@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "plumb/camera.h"
 #include "plumb/frame.h"
@@ -90,5 +91,12 @@ RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const Raste
 /// RasterOptions::overwrite, gives the picture alone. Throws what Rasterizer does, and then leaves the frame
 /// as it was.
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options = {});
+
+/// The same for many cameras, frames[i] that of cameras[i]: where there are as many as threads, a frame on
+/// each thread, else one frame after the other on all. Throws as above, naming the frame by its index, and
+/// when there are not as many frames as cameras; frames that were finished before the callback cancelled or
+/// threw stay.
+void rasterize(MeshView mesh, std::span<const Camera> cameras, std::span<Frame> frames,
+               const RasterOptions& options = {});
 
 }  // namespace plumb
