@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,8 @@ FrameDrawer::FrameDrawer(const Camera& camera, const RasterOptions& options)
       kernels_(raster_kernels(resolve_simd(options.simd))),
       bins_(projection_, kernels_) {}
 
-void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame) {
+template <class AnyFrame>
+void FrameDrawer::draw_mesh(MeshView mesh, std::uint32_t first_id, bool fresh, AnyFrame& frame) {
   check_mesh(mesh, first_id, "rasterize");
   const glm::vec3& eye = camera_.eye;
   if (!(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z))) {  // no ray sees anything
@@ -48,7 +50,7 @@ void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame&
       return;
     }
     // What can be cancelled, or whose callback may throw, must be able to take everything back.
-    Frame before = frame;
+    AnyFrame before = frame;
     try {
       draw_batches(mesh, first_id, fresh, frame);
     } catch (...) {
@@ -58,8 +60,14 @@ void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame&
   });
 }
 
-void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame) {
+template <class AnyFrame>
+void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh, AnyFrame& frame) {
   const std::size_t count = mesh.triangles.size();
+  if constexpr (std::is_same_v<AnyFrame, LayeredFrame>) {
+    // Its tiles start from what it holds.
+    if (fresh) frame.clear();
+    fresh = false;
+  }
   if (count == 0 && fresh) frame.clear();
   Progress progress(options_.progress, count);
   for (std::size_t first = 0; first < count && !progress.cancelled();) {
@@ -77,8 +85,9 @@ void FrameDrawer::draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh
   progress.throw_if_cancelled();
 }
 
+template <class AnyFrame>
 void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, bool fresh,
-                            Frame& frame) const {
+                            AnyFrame& frame) const {
   TileContents contents;
   bins_.collect(tile, contents);
   if (contents.empty() && !fresh) return;
@@ -86,16 +95,31 @@ void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t t
   const TileView view{camera_, projection_.exact_only, static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
   if (contents.empty()) {
-    clear_tile(view, frame);
+    if constexpr (std::is_same_v<AnyFrame, Frame>) clear_tile(view, frame);
     return;
   }
   const TileJob job{projection_, view, contents, fresh};
-  const MeshTriangles triangles{mesh, first_id};
+  run(job, MeshTriangles{mesh, first_id}, frame);
+}
+
+void FrameDrawer::run(const TileJob& job, const MeshTriangles& triangles, Frame& frame) const {
   if (counts_ != nullptr) {
     kernels_.count_tile(job, triangles, frame, *counts_);
   } else {
     kernels_.draw_tile(job, triangles, frame);
   }
+}
+
+void FrameDrawer::run(const TileJob& job, const MeshTriangles& triangles, LayeredFrame& frame) const {
+  kernels_.draw_layers(job, triangles, frame);
+}
+
+void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame) {
+  draw_mesh(mesh, first_id, fresh, frame);
+}
+
+void FrameDrawer::draw(MeshView mesh, std::uint32_t first_id, bool fresh, LayeredFrame& frame) {
+  draw_mesh(mesh, first_id, fresh, frame);
 }
 
 }  // namespace plumb::detail

@@ -5,6 +5,7 @@
 #include "pixels/projection.h"
 #include "plumb/camera.h"
 #include "plumb/frame.h"
+#include "plumb/layers.h"
 #include "plumb/mesh.h"
 #include "plumb/raster.h"
 #include "raster/bins.h"
@@ -28,12 +29,22 @@ class FrameDrawer {
   /// as it was.
   void draw(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame);
 
-  /// From now on counts what is tested; for one thread only. The counts must outlive the drawer.
+  /// The same into a layered frame.
+  void draw(MeshView mesh, std::uint32_t first_id, bool fresh, LayeredFrame& frame);
+
+  /// From now on counts what is tested when drawing into a Frame; for one thread only. The counts must
+  /// outlive the drawer.
   void count(RasterCounts& counts) { counts_ = &counts; }
 
  private:
-  void draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh, Frame& frame);
-  void draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, bool fresh, Frame& frame) const;
+  template <class AnyFrame>
+  void draw_mesh(MeshView mesh, std::uint32_t first_id, bool fresh, AnyFrame& frame);
+  template <class AnyFrame>
+  void draw_batches(MeshView mesh, std::uint32_t first_id, bool fresh, AnyFrame& frame);
+  template <class AnyFrame>
+  void draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t tile, bool fresh, AnyFrame& frame) const;
+  void run(const TileJob& job, const MeshTriangles& triangles, Frame& frame) const;
+  void run(const TileJob& job, const MeshTriangles& triangles, LayeredFrame& frame) const;
 
   Camera camera_;
   RasterOptions options_;

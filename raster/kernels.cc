@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
-RasterKernels MakeRasterKernels() { return {&BinTriangles, &DrawTile, &CountTile}; }
+RasterKernels MakeRasterKernels() { return {&BinTriangles, &DrawTile, &DrawLayers, &CountTile}; }
 
 }  // namespace plumb::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

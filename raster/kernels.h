@@ -8,6 +8,7 @@
 #include "pixels/screen_triangle.h"
 #include "pixels/tile_state.h"
 #include "plumb/frame.h"
+#include "plumb/layers.h"
 #include "plumb/raster.h"
 #include "plumb/simd.h"
 #include "raster/mesh_triangles.h"
@@ -47,7 +48,9 @@ struct RasterKernels {
               BinnedTriangles& to);
   /// Draws a tile and merges it into the frame.
   void (*draw_tile)(const TileJob& job, const MeshTriangles& mesh, Frame& frame);
-  /// The same, and counts what it tests.
+  /// Adds what the tile's pixels meet to the frame's entries.
+  void (*draw_layers)(const TileJob& job, const MeshTriangles& mesh, LayeredFrame& frame);
+  /// As draw_tile, and counts what it tests.
   void (*count_tile)(const TileJob& job, const MeshTriangles& mesh, Frame& frame, RasterCounts& counts);
 };
 

@@ -77,6 +77,12 @@ void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOp
   detail::FrameDrawer(camera, options).draw(mesh, options.first_id, options.overwrite, frame);
 }
 
+void rasterize_layers(MeshView mesh, const Camera& camera, LayeredFrame& frame,
+                      const RasterOptions& options) {
+  detail::check_frame(frame, camera);
+  detail::FrameDrawer(camera, options).draw(mesh, options.first_id, options.overwrite, frame);
+}
+
 void rasterize(MeshView mesh, std::span<const Camera> cameras, std::span<Frame> frames,
                const RasterOptions& options) {
   detail::check_frames(frames, cameras, "rasterize");

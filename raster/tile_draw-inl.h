@@ -40,9 +40,9 @@ HWY_INLINE std::uint32_t AddWide(const MeshTriangles& mesh, const ScreenTriangle
   return static_cast<std::uint32_t>(place);
 }
 
-template <class Counts>
+template <class State, class Counts>
 HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const ScreenTriangle& triangle,
-                         TileState& state, Counts& counts) {
+                         State& state, Counts& counts) {
   if (triangle.x0 >= view.x + kTilePx || triangle.x1 < view.x || triangle.y0 >= view.y + kTilePx ||
       triangle.y1 < view.y)
     return;
@@ -61,9 +61,9 @@ HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const 
 
 // Draws the wide triangles of a list. Of a list that is `sorted` from front to back, what follows one that is
 // hidden is hidden too.
-template <class Counts>
+template <class State, class Counts>
 HWY_INLINE void DrawWideList(const TileJob& job, const MeshTriangles& mesh, std::span<const WideEntry> list,
-                             bool sorted, TileState& state, Counts& counts) {
+                             bool sorted, State& state, Counts& counts) {
   constexpr size_t kAhead = 8;
   const auto prefetch = [&](size_t i) HWY_ATTR {
     const auto* const next = reinterpret_cast<const char*>(list[i].triangle);
@@ -131,8 +131,8 @@ HWY_INLINE void FetchEntries(const EntryRun& run) {
 }
 
 // Draws the triangles of the tile's lists.
-template <class Counts>
-HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileState& state, Counts& counts) {
+template <class State, class Counts>
+HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, State& state, Counts& counts) {
   SetupCandidates candidates;
   candidates.count = 0;
   const auto draw = [&]() HWY_ATTR {
@@ -165,32 +165,50 @@ HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, TileSta
   if (candidates.count != 0) draw();
 }
 
+template <class State, class Counts>
+HWY_INLINE void DrawContents(const TileJob& job, const MeshTriangles& mesh, State& state, Counts& counts) {
+  for (const std::span<const WideEntry> list : job.contents.sorted)
+    DrawWideList(job, mesh, list, true, state, counts);
+  DrawWideList(job, mesh, job.contents.wide, false, state, counts);
+  UpdateLows(state);
+  DrawLists(job, mesh, state, counts);
+}
+
 template <class Counts>
-HWY_INLINE void DrawContents(const TileJob& job, const MeshTriangles& mesh, Frame& frame, Counts& counts) {
+HWY_INLINE void DrawFrame(const TileJob& job, const MeshTriangles& mesh, Frame& frame, Counts& counts) {
   TileState state;
   if (job.fresh) {
     StartTile(job.view, state);
   } else {
     LoadTile(job.view, frame, state);
   }
-  for (const std::span<const WideEntry> list : job.contents.sorted)
-    DrawWideList(job, mesh, list, true, state, counts);
-  DrawWideList(job, mesh, job.contents.wide, false, state, counts);
-  UpdateLows(state);
-  DrawLists(job, mesh, state, counts);
+  DrawContents(job, mesh, state, counts);
   StoreTile(job.view, mesh, state, frame);
+}
+
+inline void DrawLayers(const TileJob& job, const MeshTriangles& mesh, LayeredFrame& frame) {
+  NoTileCounts counts;
+  LayeredTile tile;
+  StartTile(job.view, tile);
+  load_entries(job.view, frame, tile);
+  for (int block = 0; block < kTileBlocks * kTileBlocks; ++block) SetBounds(tile, block, 0xffffu);
+  HideOutside(tile);
+  tile.changed = ~std::uint64_t{0};
+  UpdateLows(tile);
+  DrawContents(job, mesh, tile, counts);
+  store_entries(job.view, tile, frame);
 }
 
 inline void DrawTile(const TileJob& job, const MeshTriangles& mesh, Frame& frame) {
   NoTileCounts counts;
-  DrawContents(job, mesh, frame, counts);
+  DrawFrame(job, mesh, frame, counts);
 }
 
 // The same, counted: out of line, so that it costs the other nothing.
 HWY_NOINLINE inline void CountTile(const TileJob& job, const MeshTriangles& mesh, Frame& frame,
                                    RasterCounts& counts) {
   TileCounts counter{counts};
-  DrawContents(job, mesh, frame, counter);
+  DrawFrame(job, mesh, frame, counter);
 }
 
 }  // namespace plumb::detail::HWY_NAMESPACE

@@ -5,6 +5,7 @@
 
 #include "plumb/camera.h"
 #include "plumb/frame.h"
+#include "plumb/layers.h"
 
 namespace plumb::detail {
 
@@ -13,6 +14,9 @@ void check_camera(const Camera& camera);
 
 /// The frame must be the camera's size and hold as many pixels. Throws plumb::Error.
 void check_frame(const Frame& frame, const Camera& camera);
+
+/// The same of a layered frame.
+void check_frame(const LayeredFrame& frame, const Camera& camera);
 
 /// There must be as many frames as cameras, each as check_frame() has it; `who` names the function that was
 /// called. Throws plumb::Error, which names the frame by its index.

@@ -92,8 +92,8 @@ HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const flo
 
 // Draws the triangle into a block; with `kFull` it certainly covers every pixel.
 template <bool kFull, class Triangles, class Counts>
-HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
-                          bool side_open, int block, TileState& state, Counts& counts) {
+HWY_INLINE void DrawNearest(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
+                            bool side_open, int block, TileState& state, Counts& counts) {
   counts.block(kFull);
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
@@ -138,6 +138,60 @@ HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, cons
   if (edge_open != 0) DecidePixels(view, triangles, state, block, triangle.place, edge_open);
 }
 
+// The same into a tile whose pixels keep their first triangles: every hit that may be among them is added, at
+// its exact depth.
+template <bool kFull, class Triangles, class Counts>
+inline void DrawEntries(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
+                        bool side_open, int block, LayeredTile& tile, Counts& counts) {
+  counts.block(kFull);
+  const hn::CappedTag<float, 16> d;
+  HWY_ALIGN float centre[4];
+  PlanesAt(triangle, block, centre);
+  std::uint32_t covered_bits = 0, open_bits = 0;
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
+    const auto high = hn::Add(PlaneAtPixels(d, triangle, centre, 3, lane), hn::Set(d, triangle.error[3]));
+    auto closed = hn::Lt(high, hn::Load(d, tile.inverse_low + offset));
+    auto covered = hn::Not(closed);
+    if constexpr (!kFull) {
+      for (int i = 0; i < 3; ++i) {
+        const auto edge = PlaneAtPixels(d, triangle, centre, i, lane);
+        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
+        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
+      }
+    }
+    covered_bits |= MaskBits(d, covered) << lane;
+    open_bits |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
+  }
+  if ((covered_bits | open_bits) == 0) return;
+  HWY_ALIGN float t[kBlockPixels];
+  std::uint32_t certain = 0;
+  if (!side_open && covered_bits != 0)
+    certain = BlockDepthsOf(BlockRays(tile, block), tile.drawn, triangle.place, covered_bits, t);
+  const std::uint32_t asked = (covered_bits | open_bits) & ~certain;
+  counts.open_pixels(asked);
+  for (std::uint32_t bits = certain; bits != 0; bits &= bits - 1) {
+    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    add_entry(tile, block * kBlockPixels + i, t[i], tile.drawn.id[triangle.place]);
+  }
+  for (std::uint32_t bits = asked; bits != 0; bits &= bits - 1) {
+    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    decide_entry(view, tile, block * kBlockPixels + i, Placed(triangles, tile, triangle.place));
+  }
+  SetBounds(tile, block, certain | asked);
+  tile.changed |= std::uint64_t{1} << block;
+}
+
+template <bool kFull, class Triangles, class State, class Counts>
+HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
+                          bool side_open, int block, State& state, Counts& counts) {
+  if constexpr (State::kLayered) {
+    DrawEntries<kFull>(view, triangles, triangle, side_open, block, state, counts);
+  } else {
+    DrawNearest<kFull>(view, triangles, triangle, side_open, block, state, counts);
+  }
+}
+
 // The blocks of a tile that hold pixels of the triangle's box, one bit each.
 HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
   const std::uint64_t columns = (2u << triangle.x1 / kBlockPx) - (1u << triangle.x0 / kBlockPx);
@@ -147,9 +201,9 @@ HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
 }
 
 // Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
-template <class Triangles, class Counts>
+template <class Triangles, class State, class Counts>
 HWY_INLINE void DrawBlocks(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
-                           bool side_open, TileState& state, Counts& counts) {
+                           bool side_open, State& state, Counts& counts) {
   const hn::CappedTag<float, 16> d;
   const std::uint64_t box = BoxBlocks(triangle);
   const size_t lanes = hn::Lanes(d);
@@ -176,9 +230,9 @@ HWY_INLINE void DrawBlocks(const TileView& view, const Triangles& triangles, con
 }
 
 // Draws a triangle whose box has few blocks.
-template <class Triangles, class Counts>
+template <class Triangles, class State, class Counts>
 HWY_INLINE void DrawSmall(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
-                          TileState& state, Counts& counts) {
+                          State& state, Counts& counts) {
   const int x1 = triangle.x1 / kBlockPx, y1 = triangle.y1 / kBlockPx;
   for (int y = triangle.y0 / kBlockPx; y <= y1; ++y) {
     for (int x = triangle.x0 / kBlockPx; x <= x1; ++x)

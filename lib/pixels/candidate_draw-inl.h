@@ -22,9 +22,9 @@ namespace plumb::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Draws a triangle placed about the tile. With `side_open` it is drawn as seen from either side, and turned.
-template <class Triangles, class Counts>
+template <class Triangles, class State, class Counts>
 HWY_INLINE void DrawPlaced(const TileView& view, const Triangles& triangles, TileTriangle& triangle,
-                           bool side_open, TileState& state, Counts& counts) {
+                           bool side_open, State& state, Counts& counts) {
   if (HWY_UNLIKELY(side_open)) {
     DrawBlocks(view, triangles, triangle, true, state, counts);
     TurnEdges(triangle);
@@ -58,10 +58,10 @@ HWY_INLINE std::uint32_t AddDrawn(const TileView& view, const Triangles& triangl
 
 // Draws a vector's worth of candidates from `first` on, or the `count` that are left. Their boxes lie in the
 // tile.
-template <class Triangles, class Counts>
+template <class Triangles, class State, class Counts>
 HWY_INLINE void DrawCandidates(const Projection& projection, const TileView& view, const Triangles& triangles,
-                               const SetupCandidates& candidates, size_t first, size_t count,
-                               TileState& state, Counts& counts) {
+                               const SetupCandidates& candidates, size_t first, size_t count, State& state,
+                               Counts& counts) {
   const SetupTag d;
   SetupLanes lanes;
   std::uint32_t side_open = 0, uncovered = 0;

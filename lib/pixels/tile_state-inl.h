@@ -126,6 +126,17 @@ HWY_INLINE void StartDirections(const TileView& view, TileState& state) {
   }
 }
 
+// Hides pixels outside the frame, whose t is -inf, from all.
+HWY_INLINE void HideOutside(TileState& state) {
+  const hn::CappedTag<float, 16> d;
+  const auto infinity = hn::Set(d, kFloatInfinity);
+  for (size_t offset = 0; offset < kTilePixels; offset += hn::Lanes(d)) {
+    const auto outside = hn::Eq(hn::Load(d, state.t + offset), hn::Neg(infinity));
+    hn::BlendedStore(infinity, outside, d, state.inverse_low + offset);
+    hn::BlendedStore(infinity, outside, d, state.inverse_high + offset);
+  }
+}
+
 // Starts a tile that sees nothing yet.
 inline void StartTile(const TileView& view, TileState& state) {
   StartDirections(view, state);

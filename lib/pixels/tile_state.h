@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "exact/intersect.h"
 #include "pixels/tile.h"
 #include "plumb/camera.h"
 #include "plumb/frame.h"
+#include "plumb/layers.h"
 
 namespace plumb::detail {
 
@@ -32,6 +34,8 @@ struct DrawnTriangles {
 /// triangle so far has bounds of 1/t; its exact t is computed only where bounds overlap, and once at the
 /// end for each pixel that a triangle won.
 struct TileState {
+  static constexpr bool kLayered = false;  ///< LayeredTile's is true
+
   /// None of `drawn`: the pixel's answer is t and id, as the frame held them or as they were settled since.
   static constexpr std::uint32_t kEarlier = 0xffffffffu;
   /// Below this 1/t a hit's t might round to infinity.
@@ -61,6 +65,18 @@ struct TileState {
   DrawnTriangles drawn;
 };
 
+/// A tile of which each pixel keeps the first triangles that it meets, not one. Of what it has as a
+/// TileState, `t` is the depth of a pixel's last entry, infinite while there is room for more, and the bounds
+/// of 1/t are that one's; `winner`, `known` and `id` are not used.
+struct LayeredTile : TileState {
+  static constexpr bool kLayered = true;
+
+  std::size_t layers;
+  /// Pixel by pixel, `layers` for each in (t, id) order; {+inf, kNone} behind the last.
+  std::vector<float> depths;
+  std::vector<std::uint32_t> ids;
+};
+
 /// A triangle as the exact arithmetic takes it, with its place in TileState::drawn.
 struct PlacedTriangle {
   std::uint32_t place, id;
@@ -73,6 +89,18 @@ void learn_pixel(const TileView& view, TileState& state, int offset, const Place
 /// Decides whether the triangle wins the pixel, whose winner must be known. The bounds of 1/t are left
 /// to the caller. True when it does.
 bool decide_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& triangle);
+
+/// Decides whether the pixel's ray meets the triangle, and adds the hit.
+void decide_entry(const TileView& view, LayeredTile& tile, int offset, const PlacedTriangle& triangle);
+
+/// Adds a hit to a pixel's entries, if it is among the first and not there already. The bounds of 1/t are
+/// left to the caller.
+void add_entry(LayeredTile& tile, int offset, float t, std::uint32_t id);
+
+/// Takes a tile's entries, and `t`, from the frame.
+void load_entries(const TileView& view, const LayeredFrame& frame, LayeredTile& tile);
+/// Gives them to the frame.
+void store_entries(const TileView& view, const LayeredTile& tile, LayeredFrame& frame);
 
 /// Gives the frame what a tile sees that nothing was drawn into.
 void clear_tile(const TileView& view, Frame& frame);

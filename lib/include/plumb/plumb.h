@@ -28,6 +28,7 @@
 #include "plumb/frame.h"
 #include "plumb/io.h"
 #include "plumb/kd_tree.h"
+#include "plumb/layers.h"
 #include "plumb/mesh.h"
 #include "plumb/octree.h"
 #include "plumb/raster.h"

@@ -7,6 +7,7 @@
 
 #include "plumb/camera.h"
 #include "plumb/frame.h"
+#include "plumb/layers.h"
 #include "plumb/mesh.h"
 #include "plumb/simd.h"
 
@@ -92,10 +93,16 @@ RasterCounts count_raster_tests(MeshView mesh, const Camera& camera, const Raste
 /// as it was.
 void rasterize(MeshView mesh, const Camera& camera, Frame& frame, const RasterOptions& options = {});
 
-/// The same for many cameras, frames[i] that of cameras[i]: where there are as many as threads, a frame on
-/// each thread, else one frame after the other on all. Throws as above, naming the frame by its index, and
-/// when there are not as many frames as cameras; frames that were finished before the callback cancelled or
-/// threw stay.
+/// Finds each pixel's first surfaces in (t, id) order by drawing a mesh, and merges them into the frame by
+/// that order: parts of a scene may follow each other, and a hit that the frame has already is not added
+/// twice. Throws what rasterize() does, and then leaves the frame as it was.
+void rasterize_layers(MeshView mesh, const Camera& camera, LayeredFrame& frame,
+                      const RasterOptions& options = {});
+
+/// Draws a mesh as many cameras see it, frames[i] that of cameras[i]: where there are as many as threads, a
+/// frame on each thread, else one frame after the other on all. Throws as above, naming the frame by its
+/// index, and when there are not as many frames as cameras; frames that were finished before the callback
+/// cancelled or threw stay.
 void rasterize(MeshView mesh, std::span<const Camera> cameras, std::span<Frame> frames,
                const RasterOptions& options = {});
 

@@ -36,7 +36,7 @@ struct VisibleOptions {
 
 /// Which way a frame is made, and why.
 struct VisibleChoice {
-  VisibleMethod method;
+  VisibleMethod method;  ///< the way
   std::string reason;  ///< a sentence
 };
 
