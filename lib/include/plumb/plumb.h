@@ -35,6 +35,7 @@
 #include "plumb/simd.h"
 #include "plumb/sphere_tree.h"
 #include "plumb/statistics.h"
+#include "plumb/stream.h"
 #include "plumb/structure.h"
 #include "plumb/structures.h"
 #include "plumb/surface.h"
