@@ -8,11 +8,8 @@
 namespace plumb::detail {
 namespace {
 
-// Entries that the table of number_by_table() has at most, for each triangle of a full part.
-constexpr std::size_t kTableEntries = 6;
-
-static_assert(kPartTriangleBytes >=
-              sizeof(glm::uvec3) + 3 * sizeof(glm::vec3) + (3 + kTableEntries) * sizeof(std::uint32_t));
+static_assert(kPartTriangleBytes ==
+              sizeof(glm::uvec3) + 3 * (sizeof(glm::vec3) + sizeof(std::uint32_t) + sizeof(std::uint64_t)));
 
 template <typename Visit>
 void for_each_corner(std::vector<glm::uvec3>& triangles, const Visit& visit) {
@@ -45,7 +42,7 @@ IndexedParts::IndexedParts(const StreamJob& job)
   part_.reserve(job.sizes.part_triangles);
   wanted_.reserve(3 * job.sizes.part_triangles);
   positions_.reserve(3 * job.sizes.part_triangles);
-  table_.reserve(kTableEntries * job.sizes.part_triangles);
+  scratch_.reserve(3 * job.sizes.part_triangles);
 }
 
 void IndexedParts::keep_in_place(const VertexRow& row, std::uint64_t offset) {
@@ -91,7 +88,7 @@ void IndexedParts::give_part() {
 }
 
 // Most files name neighbours together: then the part's vertices are among few, and a table of these is filled
-// and read in three walks. Otherwise they are sorted and searched.
+// and read in three walks. Otherwise the corners are sorted.
 void IndexedParts::number_vertices() {
   std::uint32_t least = part_.front().x, greatest = least;
   for_each_corner(part_, [&](std::uint32_t v) {
@@ -100,7 +97,8 @@ void IndexedParts::number_vertices() {
   });
   const std::size_t range = std::size_t{greatest - least} + 1;
   wanted_.clear();
-  if (range <= kTableEntries * job_.sizes.part_triangles) {
+  scratch_.clear();
+  if (range <= 3 * job_.sizes.part_triangles) {
     number_by_table(least, range);
   } else {
     number_by_sorting();
@@ -108,23 +106,30 @@ void IndexedParts::number_vertices() {
 }
 
 void IndexedParts::number_by_table(std::uint32_t least, std::size_t range) {
-  table_.assign(range, 0);
-  for_each_corner(part_, [&](std::uint32_t v) { table_[v - least] = 1; });
+  scratch_.assign(range, 0);
+  for_each_corner(part_, [&](std::uint32_t v) { scratch_[v - least] = 1; });
   for (std::size_t i = 0; i < range; ++i) {
-    if (table_[i] == 0) continue;
-    table_[i] = static_cast<std::uint32_t>(wanted_.size());
+    if (scratch_[i] == 0) continue;
+    scratch_[i] = wanted_.size();
     wanted_.push_back(least + static_cast<std::uint32_t>(i));
   }
-  for_each_corner(part_, [&](std::uint32_t& v) { v = table_[v - least]; });
+  for_each_corner(part_, [&](std::uint32_t& v) { v = static_cast<std::uint32_t>(scratch_[v - least]); });
 }
 
+// Sorts the corners by vertex, each with its place in the lower half.
 void IndexedParts::number_by_sorting() {
-  for_each_corner(part_, [&](std::uint32_t v) { wanted_.push_back(v); });
-  std::sort(wanted_.begin(), wanted_.end());
-  wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
-  for_each_corner(part_, [&](std::uint32_t& v) {
-    v = static_cast<std::uint32_t>(std::lower_bound(wanted_.begin(), wanted_.end(), v) - wanted_.begin());
-  });
+  for (std::size_t t = 0; t < part_.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      scratch_.push_back(std::uint64_t{part_[t][k]} << 32 | (3 * t + static_cast<std::size_t>(k)));
+    }
+  }
+  std::sort(scratch_.begin(), scratch_.end());
+  for (const std::uint64_t corner : scratch_) {
+    const auto vertex = static_cast<std::uint32_t>(corner >> 32);
+    if (wanted_.empty() || wanted_.back() != vertex) wanted_.push_back(vertex);
+    const auto place = static_cast<std::uint32_t>(corner);
+    part_[place / 3][static_cast<int>(place % 3)] = static_cast<std::uint32_t>(wanted_.size() - 1);
+  }
 }
 
 void IndexedParts::fetch_positions() {

@@ -73,7 +73,8 @@ class IndexedParts {
   std::size_t non_finite_ = 0;
 
   std::vector<glm::uvec3> part_;
-  std::vector<std::uint32_t> wanted_, table_;
+  std::vector<std::uint32_t> wanted_;
+  std::vector<std::uint64_t> scratch_;  // of number_vertices()
   std::vector<glm::vec3> positions_;
 
   VertexRow row_;

@@ -16,7 +16,10 @@ StreamSizes stream_sizes(std::size_t memory_bytes) {
   sizes.buffer_bytes = std::clamp(memory_bytes / 64, std::size_t{1} << 14, std::size_t{1} << 20);
   // Buffers: of copies, of what is postponed, of its way back, of positions.
   const std::size_t buffers = sizes.window_bytes + 4 * sizes.buffer_bytes;
-  sizes.part_triangles = (memory_bytes - memory_bytes / 10 - buffers) / kPartTriangleBytes;
+  // A corner's place in its part is a number of 32 bits.
+  constexpr std::size_t kMostTriangles = 0xffffffffu / 3;
+  sizes.part_triangles =
+      std::min((memory_bytes - memory_bytes / 10 - buffers) / kPartTriangleBytes, kMostTriangles);
   return sizes;
 }
 

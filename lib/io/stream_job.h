@@ -25,7 +25,7 @@ StreamSizes stream_sizes(std::size_t memory_bytes);
 inline constexpr std::size_t kLeastStreamMemory = std::size_t{1} << 20;
 
 /// Bytes that a triangle of a part takes in memory, at most (MeshParts): its corners; the numbers of its
-/// vertices and their positions, if no other triangle uses them; and its share of a table of numbers.
+/// vertices and their positions, if no other triangle uses them; and what it takes to number these.
 inline constexpr std::size_t kPartTriangleBytes = 84;
 
 /// Turns what was read, and what was then given again, into shares for a callback.
