@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "io/finite.h"
-
 namespace plumb::detail {
 namespace {
 
@@ -48,26 +46,6 @@ IndexedParts::IndexedParts(const StreamJob& job)
 void IndexedParts::keep_in_place(const VertexRow& row, std::uint64_t offset) {
   row_ = row;
   in_place_at_ = offset;
-}
-
-void IndexedParts::add_vertex(const glm::vec3& position) {
-  ++vertices_;
-  non_finite_ += is_finite(position) ? 0 : 1;
-  if (!in_place_at_) copies_.append(&position, sizeof(position));
-}
-
-void IndexedParts::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  ++triangles_;
-  if (postponed_ || std::max({a, b, c}) >= vertices_) [[unlikely]] {
-    postpone({a, b, c});
-  } else {
-    add_to_part({a, b, c});
-  }
-}
-
-void IndexedParts::add_to_part(const glm::uvec3& triangle) {
-  part_.push_back(triangle);
-  if (part_.size() == job_.sizes.part_triangles) give_part();
 }
 
 void IndexedParts::postpone(const glm::uvec3& triangle) {

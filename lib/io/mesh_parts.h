@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "io/finite.h"
 #include "io/mesh_builder.h"
 #include "io/scratch_file.h"
 #include "io/stream_job.h"
@@ -47,8 +49,19 @@ class IndexedParts {
   std::uint64_t vertices() const { return vertices_; }
   std::uint64_t triangles() const { return triangles_; }
   void reserve(std::uint64_t /*vertices*/, std::uint64_t /*triangles*/) {}
-  void add_vertex(const glm::vec3& position);
-  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  void add_vertex(const glm::vec3& position) {
+    ++vertices_;
+    non_finite_ += is_finite(position) ? 0 : 1;
+    if (!in_place_at_) copies_.append(&position, sizeof(position));
+  }
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    ++triangles_;
+    if (postponed_ || std::max({a, b, c}) >= vertices_) [[unlikely]] {
+      postpone({a, b, c});
+    } else {
+      add_to_part({a, b, c});
+    }
+  }
 
   /// Gives what is left. All vertices that triangles name must be there.
   void finish();
@@ -57,7 +70,11 @@ class IndexedParts {
   MeshReport report() const;
 
  private:
-  void add_to_part(const glm::uvec3& triangle);
+  void add_to_part(const glm::uvec3& triangle) {
+    part_.push_back(triangle);
+    if (part_.size() == job_.sizes.part_triangles) [[unlikely]]
+      give_part();
+  }
   void postpone(const glm::uvec3& triangle);
   void give_part();
   void give_postponed();

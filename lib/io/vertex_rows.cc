@@ -41,16 +41,25 @@ glm::vec3 load_row(const VertexRow& row, const char* bytes) {
           load_real<kSwap>(row.type[2], bytes + row.at[2])};
 }
 
-}  // namespace
-
-glm::vec3 load_vertex(const VertexRow& row, const char* bytes) {
-  return row.swapped ? load_row<true>(row, bytes) : load_row<false>(row, bytes);
+// Three floats of this machine, one behind the other.
+bool is_plain(const VertexRow& row) {
+  const VertexRow plain;
+  return !row.swapped && row.type == plain.type && row.at[1] == row.at[0] + 4 && row.at[2] == row.at[0] + 8;
 }
+
+glm::vec3 load_plain_row(const VertexRow& row, const char* bytes) {
+  glm::vec3 position;
+  std::memcpy(&position, bytes + row.at[0], sizeof(position));
+  return position;
+}
+
+}  // namespace
 
 void gather_vertices(const std::function<void(std::uint64_t, char*, std::size_t)>& read, const VertexRow& row,
                      std::span<const std::uint32_t> numbers, std::span<char> buffer, glm::vec3* to) {
   const std::size_t most = buffer.size() / row.bytes;
   const std::size_t gap = kNarrowGap / row.bytes;
+  const bool plain = is_plain(row);
   for (std::size_t i = 0; i < numbers.size();) {
     const std::uint32_t first = numbers[i];
     std::size_t end = i + 1;
@@ -60,7 +69,16 @@ void gather_vertices(const std::function<void(std::uint64_t, char*, std::size_t)
     }
     const std::size_t rows = numbers[end - 1] - first + 1;
     read(first * std::uint64_t{row.bytes}, buffer.data(), rows * row.bytes);
-    for (; i < end; ++i) to[i] = load_vertex(row, buffer.data() + (numbers[i] - first) * row.bytes);
+    const auto load = [&](auto load_one) {
+      for (; i < end; ++i) to[i] = load_one(row, buffer.data() + (numbers[i] - first) * row.bytes);
+    };
+    if (plain) {
+      load([](const VertexRow& r, const char* bytes) { return load_plain_row(r, bytes); });
+    } else if (row.swapped) {
+      load([](const VertexRow& r, const char* bytes) { return load_row<true>(r, bytes); });
+    } else {
+      load([](const VertexRow& r, const char* bytes) { return load_row<false>(r, bytes); });
+    }
   }
 }
 

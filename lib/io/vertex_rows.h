@@ -20,11 +20,9 @@ struct VertexRow {
   bool swapped = false;  // the byte order is not this machine's
 };
 
-/// The position in a row, each coordinate rounded once to the nearest float.
-glm::vec3 load_vertex(const VertexRow& row, const char* bytes);
-
-/// Reads the vertices of ascending numbers, in runs that fit the buffer: none is read twice, and gaps that
-/// are wide are not read. `read(offset, to, bytes)` is asked for offsets from that of vertex 0.
+/// Reads the vertices of ascending numbers, each coordinate rounded once to the nearest float, in runs that
+/// fit the buffer: none is read twice, and gaps that are wide are not read. `read(offset, to, bytes)` is
+/// asked for offsets from that of vertex 0.
 void gather_vertices(const std::function<void(std::uint64_t, char*, std::size_t)>& read, const VertexRow& row,
                      std::span<const std::uint32_t> numbers, std::span<char> buffer, glm::vec3* to);
 
