@@ -100,7 +100,7 @@ inline std::string error_of_reading(const std::string& file, std::string_view by
 
 /// What load_mesh says of a file; and checks that stream_mesh says the same.
 inline std::string error_of_loading(const std::filesystem::path& path) {
-  const std::string error = error_of([&] { load_mesh(path); });
+  std::string error = error_of([&] { load_mesh(path); });
   CHECK(error_of([&] { stream_mesh(path, [](MeshView, std::uint32_t) {}); }) == error);
   return error;
 }

@@ -47,7 +47,7 @@ std::string fault_of_reader(std::string_view extension, std::string_view bytes, 
       return "the error does not begin with the file: " + whole.error;
     }
     if (loaded != nullptr) *loaded = whole.error.empty();
-    const std::string fault = whole.error.empty() ? fault_of(whole.mesh, whole.report) : "";
+    std::string fault = whole.error.empty() ? fault_of(whole.mesh, whole.report) : "";
     if (!fault.empty()) return fault;
     const std::string streamed =
         test::stream_difference(file, exact, {}, whole, test::smallest_sizes(exact, 2, 4096));
