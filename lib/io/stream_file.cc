@@ -1,5 +1,9 @@
 #include "io/stream_file.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/ply.h"
@@ -25,9 +29,13 @@ MeshReport read(MeshFormat format, const StreamJob& job) {
 
 MeshReport stream_file(const FileStream& stream, const PartSink& sink) {
   StreamProgress progress(stream.progress, stream.file.size);
-  const Window window{stream.file, stream.sizes.window_bytes, stream.sizes.longest_word,
+  // No file has more triangles than bytes: what a small one cannot need is not asked for.
+  StreamSizes sizes = stream.sizes;
+  sizes.part_triangles =
+      static_cast<std::size_t>(std::min<std::uint64_t>(sizes.part_triangles, stream.file.size));
+  const Window window{stream.file, sizes.window_bytes, sizes.longest_word,
                       [&](std::uint64_t offset) { progress.read_to(offset); }};
-  const StreamJob job{window, stream.name, stream.limits, stream.sizes, progress, sink};
+  const StreamJob job{window, stream.name, stream.limits, sizes, progress, sink};
   const MeshReport report = read(stream.format, job);
   progress.end();
   return report;
