@@ -119,7 +119,10 @@ TEST_SUITE("load_mesh") {
       MESSAGE("skipped: no file of 8 TiB can be made here, or the sanitizer ends a program that asks for it");
       return;
     }
-    CHECK(contains(error_of_loading(path), "large.ply: there is not enough memory"));
+    CHECK(contains(error_of([&] { load_mesh(path); }), "large.ply: there is not enough memory"));
+    const auto ignore = [](MeshView, std::uint32_t) {};
+    CHECK(contains(error_of([&] { stream_mesh(path, ignore); }),
+                   "large.ply: byte 16777216: the header goes on"));
   }
 
   TEST_CASE("the caller's floating-point mode changes nothing and is kept") {

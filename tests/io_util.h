@@ -22,6 +22,8 @@
 #include "io/stl.h"
 #include "plumb/error.h"
 #include "plumb/io.h"
+#include "plumb/stream.h"
+#include "stream_check.h"
 
 // What the tests of the mesh readers share: making files, reading them, and what an error said.
 
@@ -59,18 +61,25 @@ struct Loaded {
   MeshReport report;
 };
 
-/// Reads a copy of the bytes that ends where they end, so that a sanitizer sees one byte too many.
+/// Reads a copy of the bytes that ends where they end, so that a sanitizer sees one byte too many; and checks
+/// that streaming them gives the same mesh and report, or the same error.
 inline Loaded read_exact(const std::string& file, std::string_view bytes,
                          const detail::MeshLimits& limits = {}) {
   const auto copy = std::make_unique<char[]>(bytes.size());
   std::copy(bytes.begin(), bytes.end(), copy.get());
-  Loaded loaded;
   const auto reader = file.ends_with(".ply")   ? detail::read_ply
                       : file.ends_with(".obj") ? detail::read_obj
                       : file.ends_with(".stl") ? detail::read_stl
                                                : detail::read_off;
-  loaded.mesh = reader({copy.get(), bytes.size()}, file, loaded.report, limits);
-  return loaded;
+  const std::string_view exact(copy.get(), bytes.size());
+  Outcome whole =
+      outcome_of([&](Outcome& outcome) { outcome.mesh = reader(exact, file, outcome.report, limits); });
+  CHECK(stream_difference(file, exact, limits, whole, smallest_sizes(exact, 1)) == "");
+  CHECK(stream_difference(file, exact, limits, whole, smallest_sizes(exact, 3, 16)) == "");
+  CHECK(stream_difference(file, exact, limits, whole, detail::stream_sizes(detail::kLeastStreamMemory)) ==
+        "");
+  if (!whole.error.empty()) throw Error(whole.error);
+  return {std::move(whole.mesh), whole.report};
 }
 
 /// The message of the plumb::Error that `work` throws, or "no error".
@@ -89,9 +98,11 @@ inline std::string error_of_reading(const std::string& file, std::string_view by
   return error_of([&] { read_exact(file, bytes, limits); });
 }
 
-/// What load_mesh says of a file.
+/// What load_mesh says of a file; and checks that stream_mesh says the same.
 inline std::string error_of_loading(const std::filesystem::path& path) {
-  return error_of([&] { load_mesh(path); });
+  std::string error = error_of([&] { load_mesh(path); });
+  CHECK(error_of([&] { stream_mesh(path, [](MeshView, std::uint32_t) {}); }) == error);
+  return error;
 }
 
 /// What load_mesh says of a file in the folder that may not be read.

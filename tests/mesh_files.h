@@ -5,13 +5,15 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "io_util.h"
 #include "plumb/mesh.h"
 #include "ply_util.h"
 
-// Making OFF and STL files of meshes for the tests.
+// Making files of meshes for the tests.
 
 namespace plumb::test {
 
@@ -55,6 +57,59 @@ inline std::string make_stl_text(const TriangleMesh& mesh) {
     out += " endloop\nendfacet\n";
   }
   return out + "endsolid mesh\n";
+}
+
+/// A PLY file of the mesh.
+inline std::string make_ply_of(const TriangleMesh& mesh, const std::string& format,
+                               bool faces_first = false) {
+  const std::string vertex_header =
+      "element vertex " + std::to_string(mesh.positions.size()) + "\n" + kVertexHeader;
+  const std::string face_header =
+      "element face " + std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\n";
+  std::string vertices, faces;
+  for (const glm::vec3& p : mesh.positions) {
+    for (int k = 0; k < 3; ++k) put(vertices, format, "float", p[k]);
+    end_row(vertices, format);
+  }
+  for (const glm::uvec3& t : mesh.triangles) {
+    put(faces, format, "uchar", 3);
+    for (int k = 0; k < 3; ++k) put(faces, format, "int", t[k]);
+    end_row(faces, format);
+  }
+  std::string begin = "ply\nformat ";
+  begin.append(format).append(" 1.0\n");
+  return faces_first ? begin + face_header + vertex_header + "end_header\n" + faces + vertices
+                     : begin + vertex_header + face_header + "end_header\n" + vertices + faces;
+}
+
+/// Where an OBJ file has its vertices.
+enum class ObjOrder { VerticesFirst, FacesFirst, Mixed };
+
+inline std::string make_obj(const TriangleMesh& mesh, ObjOrder order = ObjOrder::VerticesFirst) {
+  std::vector<std::string> rows;
+  for (const glm::vec3& p : mesh.positions) {
+    rows.emplace_back("v ");
+    put_row(rows.back(), p);
+  }
+  for (const glm::uvec3& t : mesh.triangles) {
+    rows.emplace_back("f ");
+    put_row(rows.back(), t + 1u);
+  }
+  std::string out;
+  if (order == ObjOrder::FacesFirst)
+    std::rotate(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(mesh.positions.size()), rows.end());
+  if (order == ObjOrder::Mixed) {  // vertices keep their order, and so do faces
+    const std::size_t vertices = mesh.positions.size();
+    std::vector<std::string> mixed;
+    std::mt19937_64 random(7);
+    for (std::size_t v = 0, f = vertices; v < vertices || f < rows.size();) {
+      const bool vertex = v < vertices && (f == rows.size() || random() % 3 == 0);
+      mixed.push_back(rows[vertex ? v++ : f++]);
+    }
+    rows = mixed;
+  }
+  for (const std::string& row : rows) out += row;
+  return out;
 }
 
 /// The header is filled up to 80 bytes.

@@ -1,27 +1,28 @@
 #include "io/mesh_builder.h"
 
-#include <cmath>
-
+#include "io/finite.h"
 #include "io/memory.h"
+#include "io/text.h"
 
 namespace plumb::detail {
-namespace {
 
-bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+std::string too_many_triangles(const MeshLimits& limits) {
+  if (limits.first_id == 0) return too_many("triangles", limits.triangles);
+  return "more than " + std::to_string(limits.triangles) + " triangles, whose ids begin at " +
+         std::to_string(limits.first_id) + " and must stay below " + std::to_string(kNone) +
+         "; split the scene";
+}
 
-}  // namespace
-
-void MeshBuilder::reserve(std::uint64_t vertices, std::uint64_t triangles) {
+void WholeMesh::reserve(std::uint64_t vertices, std::uint64_t triangles) {
   mesh_.positions.reserve(vertices);
   mesh_.triangles.reserve(triangles);
   expect_writes(mesh_.positions.data(), vertices * sizeof(glm::vec3));
   expect_writes(mesh_.triangles.data(), triangles * sizeof(glm::uvec3));
 }
 
-MeshReport MeshBuilder::report() const {
+MeshReport WholeMesh::report() const {
   MeshReport report;
   report.vertices = mesh_.positions.size();
-  report.faces = faces_;
   report.triangles = mesh_.triangles.size();
   for (const glm::vec3& p : mesh_.positions) report.non_finite_vertices += is_finite(p) ? 0 : 1;
   if (report.non_finite_vertices == 0) return report;

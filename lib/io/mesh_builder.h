@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "plumb/io.h"
 #include "plumb/mesh.h"
@@ -13,18 +15,29 @@ namespace plumb::detail {
 struct MeshLimits {
   std::uint64_t vertices = kNone;
   std::uint64_t triangles = kNone;  // ids 0 to kNone - 1
+  std::uint64_t first_id = 0;       // where the ids begin that leave so few triangles
 };
 
-/// Collects a mesh in file order; polygons become fans.
+/// The reason why a mesh has too many triangles.
+std::string too_many_triangles(const MeshLimits& limits);
+
+/// Makes a mesh from what a reader finds, in file order; polygons become fans. `Mesh` keeps it, as WholeMesh
+/// does, or passes it on.
+template <class Mesh>
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const MeshLimits& limits) : limits_(limits) {}
+  explicit MeshBuilder(const MeshLimits& limits, Mesh mesh = {}) : limits_(limits), mesh_(std::move(mesh)) {}
 
   const MeshLimits& limits() const { return limits_; }
-  TriangleMesh& mesh() { return mesh_; }
+  Mesh& mesh() { return mesh_; }
+
+  /// Vertices so far.
+  std::uint64_t vertices() const { return mesh_.vertices(); }
 
   /// Makes room for a mesh whose counts are known to fit the file.
-  void reserve(std::uint64_t vertices, std::uint64_t triangles);
+  void reserve(std::uint64_t vertices, std::uint64_t triangles) { mesh_.reserve(vertices, triangles); }
+
+  void add_vertex(const glm::vec3& position) { mesh_.add_vertex(position); }
 
   void begin_polygon() { corners_ = 0; }
 
@@ -33,8 +46,8 @@ class MeshBuilder {
   bool add_corner(std::uint32_t vertex) {
     if (corners_ == 0) first_ = vertex;
     if (corners_ >= 2) {
-      if (mesh_.triangles.size() >= limits_.triangles) return false;
-      mesh_.triangles.emplace_back(first_, last_, vertex);
+      if (mesh_.triangles() >= limits_.triangles) return false;
+      mesh_.add_triangle(first_, last_, vertex);
     }
     last_ = vertex;
     ++corners_;
@@ -43,8 +56,8 @@ class MeshBuilder {
 
   /// Adds a polygon of three corners at once. False, and nothing added, when it would have no id.
   bool add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (mesh_.triangles.size() >= limits_.triangles) return false;
-    mesh_.triangles.emplace_back(a, b, c);
+    if (mesh_.triangles() >= limits_.triangles) return false;
+    mesh_.add_triangle(a, b, c);
     ++faces_;
     return true;
   }
@@ -55,15 +68,38 @@ class MeshBuilder {
   void end_polygon() { ++faces_; }
 
   /// The report on the mesh as it stands.
-  MeshReport report() const;
+  MeshReport report() const {
+    MeshReport report = mesh_.report();
+    report.faces = faces_;
+    return report;
+  }
 
  private:
   MeshLimits limits_;
-  TriangleMesh mesh_;
+  Mesh mesh_;
   std::size_t faces_ = 0;
   std::uint64_t corners_ = 0;
   std::uint32_t first_ = 0;
   std::uint32_t last_ = 0;
+};
+
+/// A mesh kept in memory.
+class WholeMesh {
+ public:
+  std::uint64_t vertices() const { return mesh_.positions.size(); }
+  std::uint64_t triangles() const { return mesh_.triangles.size(); }
+  void reserve(std::uint64_t vertices, std::uint64_t triangles);
+  void add_vertex(const glm::vec3& position) { mesh_.positions.push_back(position); }
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh_.triangles.emplace_back(a, b, c);
+  }
+
+  /// The report but for the faces.
+  MeshReport report() const;
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  TriangleMesh mesh_;
 };
 
 }  // namespace plumb::detail

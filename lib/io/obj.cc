@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "io/lexer.h"
+#include "io/mesh_parts.h"
 #include "io/text.h"
 
 // The format: Wavefront Technologies, "Advanced Visualizer Manual", appendix B1, "Object Files".
@@ -18,21 +18,20 @@ constexpr std::array<std::string_view, 20> kPassedOver = {
     "vt",     "vn",       "vp",    "g",        "o",   "s", "mg", "usemtl",     "mtllib",    "usemap",
     "maplib", "c_interp", "bevel", "d_interp", "lod", "l", "p",  "shadow_obj", "trace_obj", "ctech"};
 
+template <class Cursor, class Mesh>
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& file, const MeshLimits& limits)
-      : lexer_(text), file_(file), builder_(limits) {}
+  ObjReader(Cursor text, const std::string& file, MeshBuilder<Mesh>& builder)
+      : lexer_(std::move(text)), file_(file), builder_(builder) {}
 
-  TriangleMesh read(MeshReport& report) {
+  void read() {
     for (; !lexer_.at_end(); lexer_.next_statement()) {
       if (lexer_.has_token()) read_statement();
     }
-    if (forward_index_ > positions().size()) {
+    if (forward_index_ > builder_.vertices()) {
       fail_at(forward_line_, "the face refers to vertex " + std::to_string(forward_index_) +
-                                 ", but the file has only " + std::to_string(positions().size()));
+                                 ", but the file has only " + std::to_string(builder_.vertices()));
     }
-    report = builder_.report();
-    return std::move(builder_.mesh());
   }
 
  private:
@@ -40,8 +39,6 @@ class ObjReader {
     fail_in_file(file_, "line " + std::to_string(line), reason);
   }
   [[noreturn]] void fail(const std::string& reason) const { fail_at(lexer_.line(), reason); }
-
-  std::vector<glm::vec3>& positions() { return builder_.mesh().positions; }
 
   void read_statement() {
     const std::string_view keyword = lexer_.peek();
@@ -67,10 +64,10 @@ class ObjReader {
       fail("a vertex has 3 coordinates, then perhaps a weight, a colour of 3 numbers or both; found " +
            std::to_string(count) + " numbers");
     }
-    if (positions().size() >= builder_.limits().vertices) {
+    if (builder_.vertices() >= builder_.limits().vertices) {
       fail(too_many("vertices", builder_.limits().vertices));
     }
-    positions().emplace_back(numbers[0], numbers[1], numbers[2]);
+    builder_.add_vertex({numbers[0], numbers[1], numbers[2]});
   }
 
   float read_number() {
@@ -84,7 +81,7 @@ class ObjReader {
     builder_.begin_polygon();
     while (lexer_.has_token()) {
       if (!builder_.add_corner(read_corner())) {
-        fail(too_many("triangles", builder_.limits().triangles));
+        fail(too_many_triangles(builder_.limits()));
       }
     }
     if (builder_.corners() < 3) fail_at(line, too_few_corners(builder_.corners()));
@@ -111,7 +108,7 @@ class ObjReader {
   }
 
   std::uint32_t to_index(std::int64_t vertex) {
-    const auto seen = static_cast<std::int64_t>(positions().size());
+    const auto seen = static_cast<std::int64_t>(builder_.vertices());
     if (vertex == 0) fail("vertex index 0; indices begin at 1");
     if (vertex < 0) {
       if (vertex < -seen) {
@@ -131,9 +128,9 @@ class ObjReader {
     return static_cast<std::uint32_t>(vertex - 1);
   }
 
-  Lexer<LexerSyntax{.comments = true, .continuations = true}> lexer_;
+  Lexer<LexerSyntax{.comments = true, .continuations = true}, Cursor> lexer_;
   const std::string& file_;
-  MeshBuilder builder_;
+  MeshBuilder<Mesh>& builder_;
   std::uint64_t forward_index_ = 0;
   std::size_t forward_line_ = 0;
 };
@@ -142,7 +139,17 @@ class ObjReader {
 
 TriangleMesh read_obj(std::string_view text, const std::string& file, MeshReport& report,
                       const MeshLimits& limits) {
-  return ObjReader(text, file, limits).read(report);
+  MeshBuilder<WholeMesh> builder(limits);
+  ObjReader(WholeCursor(text), file, builder).read();
+  report = builder.report();
+  return builder.mesh().take();
+}
+
+MeshReport stream_obj(const StreamJob& job) {
+  MeshBuilder builder(job.limits, IndexedParts(job));
+  ObjReader(WindowCursor(job.window, 0), job.name, builder).read();
+  builder.mesh().finish();
+  return builder.report();
 }
 
 }  // namespace plumb::detail

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/lexer.h"
+#include "io/mesh_parts.h"
 #include "io/text.h"
 
 // The format: the Geomview manual, "OFF Files", with the header needed and a row in one line.
@@ -11,12 +12,13 @@
 namespace plumb::detail {
 namespace {
 
+template <class Cursor, class Mesh>
 class OffReader {
  public:
-  OffReader(std::string_view text, const std::string& file, const MeshLimits& limits)
-      : text_(text), file_(file), lexer_(text), builder_(limits) {}
+  OffReader(Cursor text, const std::string& file, MeshBuilder<Mesh>& builder)
+      : file_(file), lexer_(std::move(text)), builder_(builder) {}
 
-  TriangleMesh read(MeshReport& report) {
+  void read() {
     read_header();
     read_counts();
     // The counts are known to fit the file.
@@ -25,8 +27,6 @@ class OffReader {
     for (row_ = 0; row_ < vertices_; ++row_) read_vertex();
     element_ = "face";
     for (row_ = 0; row_ < faces_; ++row_) read_face();
-    report = builder_.report();
-    return std::move(builder_.mesh());
   }
 
  private:
@@ -41,6 +41,7 @@ class OffReader {
     const std::string expected = "an OFF file begins with OFF, or COFF, NOFF, STOFF or more such as STCNOFF";
     if (!lexer_.find_token()) fail(expected + "; this one is empty");
     keyword_ = lexer_.peek();
+    const char* keyword_end = lexer_.position() + keyword_.size();
     std::string_view prefix = keyword_;
     if (!prefix.ends_with("OFF")) fail(expected + "; found " + in_quotes(keyword_));
     prefix.remove_suffix(3);
@@ -56,7 +57,7 @@ class OffReader {
       fail(in_quotes(keyword_) + " has vertices in another space; only three coordinates are read");
     }
     if (!prefix.empty()) fail(expected + "; found " + in_quotes(keyword_));
-    lexer_.advance(keyword_.data() + keyword_.size());
+    lexer_.advance(keyword_end);
     if (lexer_.has_token() && lexer_.peek() == "BINARY") {
       fail("binary OFF files are not read; store the mesh as text");
     }
@@ -84,7 +85,7 @@ class OffReader {
   void check_length() const {
     const std::uint64_t vertex_bytes = 2 * (3 + extra_numbers_ + (has_colour_ ? 3 : 0));
     const std::uint64_t face_bytes = 2 * 4;
-    std::uint64_t left = static_cast<std::uint64_t>(text_.data() + text_.size() - lexer_.position());
+    std::uint64_t left = lexer_.bytes_left();
     if (vertices_ > left / vertex_bytes) {
       fail(cut_short("the count of vertices", vertices_, vertex_bytes, left));
     }
@@ -102,7 +103,7 @@ class OffReader {
     const bool good =
         has_colour_ ? extra == extra_numbers_ + 3 || extra == extra_numbers_ + 4 : extra == extra_numbers_;
     if (!good) fail(wrong_extra(extra));
-    builder_.mesh().positions.emplace_back(x, y, z);
+    builder_.add_vertex({x, y, z});
   }
 
   std::string wrong_extra(std::uint64_t found) const {
@@ -124,7 +125,7 @@ class OffReader {
         fail(index_out_of_range(index, vertices_));
       }
       if (!builder_.add_corner(static_cast<std::uint32_t>(index))) {
-        fail(too_many("triangles", builder_.limits().triangles));
+        fail(too_many_triangles(builder_.limits()));
       }
     }
     pass_colour();
@@ -167,11 +168,10 @@ class OffReader {
          (lexer_.has_token() ? in_quotes(lexer_.peek()) : "the end of the line"));
   }
 
-  std::string_view text_;
   const std::string& file_;
-  Lexer<LexerSyntax{.comments = true}> lexer_;
-  MeshBuilder builder_;
-  std::string_view keyword_;
+  Lexer<LexerSyntax{.comments = true}, Cursor> lexer_;
+  MeshBuilder<Mesh>& builder_;
+  std::string keyword_;
   std::uint64_t extra_numbers_ = 0;  // of a vertex after its coordinates, but for a colour
   bool has_colour_ = false;
   std::uint64_t vertices_ = 0;
@@ -184,7 +184,17 @@ class OffReader {
 
 TriangleMesh read_off(std::string_view text, const std::string& file, MeshReport& report,
                       const MeshLimits& limits) {
-  return OffReader(text, file, limits).read(report);
+  MeshBuilder<WholeMesh> builder(limits);
+  OffReader(WholeCursor(text), file, builder).read();
+  report = builder.report();
+  return builder.mesh().take();
+}
+
+MeshReport stream_off(const StreamJob& job) {
+  MeshBuilder builder(job.limits, IndexedParts(job));
+  OffReader(WindowCursor(job.window, 0), job.name, builder).read();
+  builder.mesh().finish();
+  return builder.report();
 }
 
 }  // namespace plumb::detail

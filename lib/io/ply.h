@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "io/mesh_builder.h"
+#include "io/stream_job.h"
 #include "plumb/io.h"
 #include "plumb/mesh.h"
 
@@ -15,5 +16,8 @@ namespace plumb::detail {
 /// from 0 in messages. Throws plumb::Error.
 TriangleMesh read_ply(std::string_view bytes, const std::string& file, MeshReport& report,
                       const MeshLimits& limits = {});
+
+/// The same of a file that is not in memory: gives its mesh in parts.
+MeshReport stream_ply(const StreamJob& job);
 
 }  // namespace plumb::detail

@@ -24,27 +24,32 @@ constexpr std::array<Range, 6> kRanges = {range_of<std::int8_t>(),  range_of<std
 
 }  // namespace
 
-bool PlyAsciiSource::holds(PlyType type, std::int64_t value) {
+template <class Cursor>
+bool PlyAsciiSource<Cursor>::holds(PlyType type, std::int64_t value) {
   const Range range = kRanges[static_cast<std::size_t>(type)];
   return value >= range.least && value <= range.greatest;
 }
 
-std::string_view PlyAsciiSource::token() const {
-  const char* token_end = at_;
-  while (token_end != end_ && !separates(*token_end)) ++token_end;
-  return {at_, static_cast<std::size_t>(token_end - at_)};
+template <class Cursor>
+std::string_view PlyAsciiSource<Cursor>::token() const {
+  const char* token_end = text_.at;
+  while (token_end != text_.end && !separates(*token_end) && text_.is_word(token_end - text_.at)) ++token_end;
+  return {text_.at, static_cast<std::size_t>(token_end - text_.at)};
 }
 
-void PlyAsciiSource::fail_at_line_end(const PlyProperty& property) const {
+template <class Cursor>
+void PlyAsciiSource<Cursor>::fail_at_line_end(const PlyProperty& property) const {
   fail("the line ends where a value of property " + in_quotes(property.name) + " should be");
 }
 
-void PlyAsciiSource::fail_at_value(PlyType type, const PlyProperty& property) const {
+template <class Cursor>
+void PlyAsciiSource<Cursor>::fail_at_value(PlyType type, const PlyProperty& property) const {
   fail("property " + in_quotes(property.name) + ": expected a value of type " + name_of(type) + ", found " +
        in_quotes(token()));
 }
 
-void PlyAsciiSource::skip(std::uint64_t count, const PlyProperty& property) {
+template <class Cursor>
+void PlyAsciiSource<Cursor>::skip(std::uint64_t count, const PlyProperty& property) {
   for (std::uint64_t i = 0; i < count; ++i) {
     if (is_real(property.type)) {
       real(property);
@@ -54,10 +59,14 @@ void PlyAsciiSource::skip(std::uint64_t count, const PlyProperty& property) {
   }
 }
 
-void PlyAsciiSource::fail(const std::string& reason) const {
+template <class Cursor>
+void PlyAsciiSource<Cursor>::fail(const std::string& reason) const {
   fail_in_file(file_,
                "line " + std::to_string(line_) + " (" + element_->name + " " + std::to_string(row_) + ")",
                reason);
 }
+
+template class PlyAsciiSource<WholeCursor>;
+template class PlyAsciiSource<WindowCursor>;
 
 }  // namespace plumb::detail

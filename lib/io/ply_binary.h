@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "io/binary.h"
+#include "io/cursor.h"
 #include "io/ply_header.h"
 #include "io/text.h"
 
@@ -14,11 +16,12 @@ namespace plumb::detail {
 
 /// The values of a binary PLY body, one after the other. kSwap: the file's byte order is not this
 /// machine's. PlyAsciiSource has the same interface.
-template <bool kSwap>
+template <bool kSwap, class Cursor>
 class PlyBinarySource {
  public:
-  PlyBinarySource(std::string_view bytes, const PlyHeader& header, const std::string& file)
-      : begin_(bytes.data()), at_(begin_ + header.bytes), end_(begin_ + bytes.size()), file_(file) {}
+  /// The cursor is at the body's beginning.
+  PlyBinarySource(Cursor body, const PlyHeader& /*header*/, const std::string& file)
+      : body_(std::move(body)), file_(file) {}
 
   void begin_row(const PlyElement& element, std::uint64_t row) {
     element_ = &element;
@@ -63,8 +66,9 @@ class PlyBinarySource {
     if (!is_signed && corners.type != PlyType::UInt32) return 0;
     if (is_signed) vertices = std::min(vertices, std::uint64_t{1} << 31);  // what is above is negative
     constexpr std::size_t kRowBytes = 13;
-    rows = std::min<std::uint64_t>(rows, static_cast<std::size_t>(end_ - at_) / kRowBytes);
-    const char* at = at_;
+    if (!body_.hold(kRowBytes)) return 0;
+    rows = std::min<std::uint64_t>(rows, static_cast<std::size_t>(body_.end - body_.at) / kRowBytes);
+    const char* at = body_.at;
     std::uint64_t row = 0;
     for (; row < rows && *at == 3; ++row, at += kRowBytes) {
       const auto a = load_binary<std::uint32_t, kSwap>(at + 1);
@@ -72,21 +76,21 @@ class PlyBinarySource {
       const auto c = load_binary<std::uint32_t, kSwap>(at + 9);
       if (std::max({a, b, c}) >= vertices || !take(a, b, c)) break;
     }
-    at_ = at;
+    body_.at = at;
     return row;
   }
 
   /// Passes over `count` values.
   void skip(std::uint64_t count, const PlyProperty& property) {
     const std::size_t size = size_of(property.type);
-    if (count > static_cast<std::size_t>(end_ - at_) / size) fail_short(property);
-    at_ += count * size;
+    if (count > body_.left() / size) fail_short(property);
+    body_.skip(count * size);
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
     fail_in_file(
         file_,
-        element_->name + " " + std::to_string(row_) + " (before byte " + std::to_string(at_ - begin_) + ")",
+        element_->name + " " + std::to_string(row_) + " (before byte " + std::to_string(body_.offset()) + ")",
         reason);
   }
 
@@ -119,15 +123,13 @@ class PlyBinarySource {
 
   template <typename T>
   T load(const PlyProperty& property) {
-    if (static_cast<std::size_t>(end_ - at_) < sizeof(T)) fail_short(property);
-    const T value = load_binary<T, kSwap>(at_);
-    at_ += sizeof(T);
+    if (!body_.hold(sizeof(T))) fail_short(property);
+    const T value = load_binary<T, kSwap>(body_.at);
+    body_.at += sizeof(T);
     return value;
   }
 
-  const char* begin_;
-  const char* at_;
-  const char* end_;
+  Cursor body_;
   const std::string& file_;
   const PlyElement* element_ = nullptr;
   std::uint64_t row_ = 0;

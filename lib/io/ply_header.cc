@@ -55,15 +55,17 @@ PlyUse use_of(const PlyElement& element, const PlyProperty& property) {
 
 class HeaderReader {
  public:
-  HeaderReader(std::string_view bytes, const std::string& file, const MeshLimits& limits)
-      : bytes_(bytes), file_(file), limits_(limits) {}
+  HeaderReader(std::string_view bytes, std::uint64_t file_bytes, const std::string& file,
+               const MeshLimits& limits)
+      : bytes_(bytes), file_bytes_(file_bytes), file_(file), limits_(limits) {}
 
-  PlyHeader read() {
-    if (!bytes_.starts_with("ply") || split(next_line()) != std::vector<std::string_view>{"ply"}) {
-      fail_at(1, "a PLY file begins with a line \"ply\"");
-    }
+  std::optional<PlyHeader> read() {
+    if (!bytes_.starts_with("ply")) fail_at(1, kBegin);
+    if (!next_line()) return std::nullopt;
+    if (split(text_) != std::vector<std::string_view>{"ply"}) fail_at(1, kBegin);
     while (true) {
-      const std::vector<std::string_view> words = split(next_line());
+      if (!next_line()) return std::nullopt;
+      const std::vector<std::string_view> words = split(text_);
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header" && words.size() == 1) break;
       read_statement(words);
@@ -82,14 +84,18 @@ class HeaderReader {
   }
   [[noreturn]] void fail(const std::string& reason) const { fail_at(line_, reason); }
 
-  std::string_view next_line() {
+  // Goes to the next line; whether its end is among the bytes.
+  bool next_line() {
     ++line_;
     const std::size_t end = bytes_.find('\n', at_);
-    if (end == std::string_view::npos) fail("the file ends before the header does (a line \"end_header\")");
-    std::string_view line = bytes_.substr(at_, end - at_);
+    if (end == std::string_view::npos) {
+      if (bytes_.size() < file_bytes_) return false;
+      fail("the file ends before the header does (a line \"end_header\")");
+    }
+    text_ = bytes_.substr(at_, end - at_);
     at_ = end + 1;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
+    if (text_.ends_with('\r')) text_.remove_suffix(1);
+    return true;
   }
 
   void read_statement(const std::vector<std::string_view>& words) {
@@ -218,7 +224,7 @@ class HeaderReader {
   }
 
   void check_length() const {
-    std::uint64_t left = bytes_.size() - at_;
+    std::uint64_t left = file_bytes_ - at_;
     if (header_.format == PlyFormat::Ascii) ++left;  // nothing need end the last value of a text
     for (const PlyElement& element : header_.elements) {
       const std::uint64_t row = least_row_bytes(element);
@@ -229,12 +235,16 @@ class HeaderReader {
     }
   }
 
+  static constexpr const char* kBegin = "a PLY file begins with a line \"ply\"";
+
   std::string_view bytes_;
+  std::uint64_t file_bytes_;
   const std::string& file_;
   MeshLimits limits_;
   PlyHeader header_;
   std::size_t at_ = 0;
   std::size_t line_ = 0;
+  std::string_view text_;  // of the line, without its end
   bool format_seen_ = false;
   std::set<std::string> element_names_;
   std::set<std::string> property_names_;  // of the last element
@@ -251,8 +261,9 @@ std::size_t size_of(PlyType type) {
 
 const char* name_of(PlyType type) { return kTypeNames[static_cast<std::size_t>(type)].first; }
 
-PlyHeader read_ply_header(std::string_view bytes, const std::string& file, const MeshLimits& limits) {
-  return HeaderReader(bytes, file, limits).read();
+std::optional<PlyHeader> read_ply_header(std::string_view first_bytes, std::uint64_t file_bytes,
+                                         const std::string& file, const MeshLimits& limits) {
+  return HeaderReader(first_bytes, file_bytes, file, limits).read();
 }
 
 }  // namespace plumb::detail

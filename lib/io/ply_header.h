@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,7 +46,9 @@ std::size_t size_of(PlyType type);
 const char* name_of(PlyType type);
 
 /// Reads the header of a PLY file and checks that the file is long enough for the counts in it, so
-/// that nothing is allocated that is not there. Throws plumb::Error with the line at fault.
-PlyHeader read_ply_header(std::string_view bytes, const std::string& file, const MeshLimits& limits);
+/// that nothing is allocated that is not there. Of the file's bytes the first may be enough; nothing when the
+/// header goes on behind them. Throws plumb::Error with the line at fault.
+std::optional<PlyHeader> read_ply_header(std::string_view first_bytes, std::uint64_t file_bytes,
+                                         const std::string& file, const MeshLimits& limits);
 
 }  // namespace plumb::detail

@@ -8,6 +8,7 @@
 #include "io/ply.h"
 #include "io/stl.h"
 #include "plumb/error.h"
+#include "stream_check.h"
 
 namespace plumb::fuzz {
 namespace {
@@ -36,15 +37,21 @@ std::string fault_of_reader(std::string_view extension, std::string_view bytes, 
   // A copy that ends where the bytes end, so that a sanitizer sees one byte too many.
   const auto copy = std::make_unique<char[]>(bytes.size());
   std::copy(bytes.begin(), bytes.end(), copy.get());
+  const std::string_view exact(copy.get(), bytes.size());
   const std::string file = std::string("mesh").append(extension);
   try {
-    MeshReport report;
-    const TriangleMesh mesh = reader_of(extension)({copy.get(), bytes.size()}, file, report, {});
-    if (loaded != nullptr) *loaded = true;
-    return fault_of(mesh, report);
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    return message.starts_with(file + ": ") ? "" : "the error does not begin with the file: " + message;
+    const test::Outcome whole = test::outcome_of([&](test::Outcome& outcome) {
+      outcome.mesh = reader_of(extension)(exact, file, outcome.report, {});
+    });
+    if (!whole.error.empty() && !whole.error.starts_with(file + ": ")) {
+      return "the error does not begin with the file: " + whole.error;
+    }
+    if (loaded != nullptr) *loaded = whole.error.empty();
+    std::string fault = whole.error.empty() ? fault_of(whole.mesh, whole.report) : "";
+    if (!fault.empty()) return fault;
+    const std::string streamed =
+        test::stream_difference(file, exact, {}, whole, test::smallest_sizes(exact, 2, 4096));
+    return streamed.empty() ? "" : "streamed: " + streamed;
   } catch (const std::exception& error) {
     return std::string("an exception that is no plumb::Error: ") + error.what();
   }

@@ -143,8 +143,10 @@ std::vector<std::string> scenes() {
   return names;
 }
 
+fs::path scene_file(const std::string& scene) { return root() / "scenes" / (scene + ".ply"); }
+
 TriangleMesh load_scene(const std::string& scene) {
-  const fs::path path = root() / "scenes" / (scene + ".ply");
+  const fs::path path = scene_file(scene);
   const std::string bytes = read_file(path);
   Reader in(path, bytes);
   in.expect("ply\nformat binary_little_endian 1.0\nelement vertex ");

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ std::vector<View> views_of(const std::string& scene);
 
 /// The names of the scenes, each once, in the order of cameras.txt.
 std::vector<std::string> scenes();
+
+/// The file of a scene.
+std::filesystem::path scene_file(const std::string& scene);
 
 /// Binary little-endian PLY of `float x y z` and `list uchar int vertex_indices`, all triangles.
 TriangleMesh load_scene(const std::string& scene);

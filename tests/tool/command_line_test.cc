@@ -67,7 +67,7 @@ TEST_CASE("bad usage and bad input end in status 2 and name what is wrong") {
       {"compare --fov wide", "wide"},
       {"compare --fov 180 " + kSmall, "180"},
       {"compare --eye 1,1,1 --target 1,1,1 " + kSmall, "target"},
-      {"render " + kSmall, "--method"},
+      {"render --out frame.exr " + kSmall, "--method"},
       {"render --method bvh2 " + kSmall, "--out"},
       {"render --method bvh2 --out frame.png " + kSmall, "frame.png"},
       {"render --method bvh2 --out /nowhere/frame.exr " + kSmall, "/nowhere"},

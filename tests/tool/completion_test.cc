@@ -103,6 +103,7 @@ TEST_CASE("built-in scenes are offered behind the colon, where bash begins a wor
   CHECK(complete("plumb info --json builtin:terr") == Words{"terrain"});
   CHECK(complete("plumb info builtin:nonesuch").empty());
   CHECK(complete("plumb report mesh.ply builtin:grid builtin:terr") == Words{"terrain"});
+  CHECK(complete("plumb render --stream mesh.ply builtin:terr") == Words{"terrain"});
 }
 
 TEST_CASE("methods, instruction sets, cases and widths are offered as values, a list's each once") {
@@ -135,6 +136,8 @@ TEST_CASE("files are offered by what a subcommand reads and writes, and folders 
   CHECK(complete("plumb compare " + at) == meshes);
   CHECK(complete("plumb info --threads 2 " + at) == meshes);
   CHECK(complete("plumb info --threads=2 " + at) == meshes);
+  CHECK(complete("plumb render --stream " + at) == meshes);
+  CHECK(complete("plumb render --memory 64 --stream " + at + "a.ply " + at) == meshes);
   CHECK(complete("plumb render --method raster --out " + at) ==
         Words{"-o filenames", at + "f.exr", at + "sub"});
   CHECK(complete("plumb report --out=" + at + "g") == Words{"-o filenames", at + "g.md"});

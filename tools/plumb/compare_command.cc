@@ -115,6 +115,7 @@ void add_compare_command(CLI::App& app, int& status) {
   CLI::App* command =
       app.add_subcommand("compare", "Make one frame by several methods and compare every pixel");
   const auto options = std::make_shared<CompareOptions>();
+  add_scene_option(*command, options->frame.scene);
   add_frame_options(*command, options->frame);
   command
       ->add_option("--methods", options->methods, "what to compare; the first is what the others must equal")

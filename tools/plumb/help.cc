@@ -111,8 +111,15 @@ std::string render_help() {
       R"(FILE.exr has the channels Z (float: the depth, +inf where nothing is seen) and id (uint: the triangle,
 4294967295 where nothing is seen), compressed without loss.
 
+--stream draws scenes that are larger than memory, with the same bits: the SCENEs are mesh files, in any
+order of their triangles, read in parts that are drawn as they come; ids go on from file to file. Reading
+holds at most --memory MIB, drawing up to 100 more, and 8 bytes a pixel, 16 at the end. Texts also put 12
+bytes for each vertex on the disk, in the folder for temporary files (TMPDIR). Without both --eye and
+--target the files are read twice, first for the box that the camera frames.
+
 Examples:
   plumb render mesh.ply --method raster --out frame.exr
+  plumb render --stream city-1.ply city-2.ply --eye 0,90,300 --target 0,0,0 --out city.exr
   plumb render builtin:grass --size 640x360 --method bvh4 --simd avx2 --out grass.exr
 
 {}

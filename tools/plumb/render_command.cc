@@ -1,6 +1,9 @@
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -13,9 +16,12 @@
 #include "method.h"
 #include "output_file.h"
 #include "plumb/error.h"
+#include "plumb/stream.h"
 #include "progress_bar.h"
 #include "report.h"
 #include "scene.h"
+#include "stream_scene.h"
+#include "text.h"
 #include "verdict.h"
 
 namespace plumb::tool {
@@ -23,13 +29,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMiB = std::size_t{1} << 20;
+constexpr std::int64_t kMostMemoryMib = 1 << 20;
+
 struct RenderOptions {
   FrameOptions frame;
+  std::vector<std::string> scenes;  ///< several of a stream only
   std::string method, out;
+  bool stream = false;
+  std::optional<std::int64_t> memory_mib;
 };
 
-Run the_only_run(const RenderOptions& options) {
-  const std::vector<Run> runs = plan_runs({parse_method(options.method)}, options.frame.simd);
+Run the_only_run(const RenderOptions& options, Method method) {
+  const std::vector<Run> runs = plan_runs({method}, options.frame.simd);
   if (runs.size() != 1) {
     throw Error(fmt::format("plumb: --simd {}: render makes one frame; name one target", options.frame.simd));
   }
@@ -48,8 +60,45 @@ void check_out(const fs::path& out) {
   }
 }
 
-ExitStatus run_render(const RenderOptions& options) {
-  const Run run = the_only_run(options);
+std::size_t stream_memory(const RenderOptions& options) {
+  if (!options.memory_mib) return StreamOptions().memory_bytes;
+  if (*options.memory_mib < 1 || *options.memory_mib > kMostMemoryMib) {
+    throw Error(fmt::format("plumb: --memory {}: give 1 to {} MiB", *options.memory_mib, kMostMemoryMib));
+  }
+  return static_cast<std::size_t>(*options.memory_mib) * kMiB;
+}
+
+ExitStatus render_stream(const RenderOptions& options) {
+  if (!options.method.empty() && parse_method(options.method) != Method::Raster) {
+    throw Error(fmt::format("plumb: --method {}: only raster draws a --stream", options.method));
+  }
+  const std::size_t memory_bytes = stream_memory(options);
+  check_threads(options.frame.threads);
+  const Run run = the_only_run(options, Method::Raster);
+  check_out(options.out);
+  const StreamScene scene(options.scenes, memory_bytes);
+  const Camera camera = stream_camera(options.frame, scene, progress_bar);
+  fmt::print(stderr, "{}; {}x{} pixels from ({}, {}, {})\n", scene.name(), camera.width, camera.height,
+             camera.eye.x, camera.eye.y, camera.eye.z);
+  const StreamFrame result = draw_stream(scene, camera, run, options.frame.threads, progress_bar);
+  write_file(options.out, encode_exr(result.frame));
+  fmt::print(stderr, "  {}  {} triangles, {} vertices in {} part{}  {:.1f} s\nwrote {}\n", run.name,
+             result.totals.triangles, result.totals.vertices, result.totals.parts,
+             result.totals.parts == 1 ? "" : "s", result.seconds, options.out);
+  return kAgree;
+}
+
+ExitStatus run_render(RenderOptions options) {
+  if (options.stream) return render_stream(options);
+  if (options.method.empty()) throw Error("plumb: render: --method is missing: name one that --help lists");
+  if (options.memory_mib) throw Error("plumb: --memory: only a --stream is read in parts");
+  if (options.scenes.size() > 1) {
+    throw Error(
+        fmt::format("plumb: render: one SCENE too many: '{}'; with --stream several files are one scene",
+                    options.scenes[1]));
+  }
+  if (!options.scenes.empty()) options.frame.scene = options.scenes.front();
+  const Run run = the_only_run(options, parse_method(options.method));
   check_out(options.out);
   const Scene scene = open_scene(options.frame);
   fmt::print(stderr, "{}\n", describe(scene));
@@ -65,9 +114,21 @@ ExitStatus run_render(const RenderOptions& options) {
 void add_render_command(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("render", "Make one frame by one method and write it as OpenEXR");
   const auto options = std::make_shared<RenderOptions>();
+  command->add_option(
+      "SCENE", options->scenes,
+      fmt::format("a mesh file (PLY, OBJ, STL, OFF), or builtin:NAME[:SIZE]; {} unless said; with "
+                  "--stream one file or several",
+                  kDefaultScene));
   add_frame_options(*command, options->frame);
   command->get_option("--simd")->description("instruction set: auto (the best) or a name");
-  command->add_option("--method", options->method, "how to make it")->type_name("NAME")->required();
+  command
+      ->add_option("--method", options->method,
+                   "how to make it; of a --stream only raster, which need not be said")
+      ->type_name("NAME");
+  command->add_flag("--stream", options->stream,
+                    "read the files in parts and draw these as they come: for scenes larger than memory");
+  command->add_option("--memory", options->memory_mib, "--stream: what reading may hold; 64 unless said")
+      ->type_name("MIB");
   command->add_option("--out", options->out, "the file to write")->type_name("FILE.exr")->required();
   command->footer(render_help());
   command->callback([options, &status] { status = run_render(*options); });

@@ -57,17 +57,15 @@ Scene open_builtin(const FrameOptions& options, int width, int height) {
   return {options.scene, std::move(mesh), look(options, std::move(scene), width, height)};
 }
 
-Scene open_file(const FrameOptions& options, int width, int height) {
+Scene open_file(const FrameOptions& options) {
   TriangleMesh mesh = load_mesh(options.scene);
-  const double fov = options.fov.value_or(kFileFovDegrees);
-  Camera camera = frame_all(mesh, width, height, fov);
-  if (options.eye || options.target || options.up) {
-    camera = look(options, {{}, camera.eye, middle_of(mesh), {0.0f, 1.0f, 0.0f}, fov}, width, height);
-  }
+  const Camera camera = file_camera(options, mesh);
   return {options.scene, std::move(mesh), camera};
 }
 
 }  // namespace
+
+bool is_builtin(std::string_view scene) { return scene.starts_with(kBuiltin); }
 
 void add_scene_option(CLI::App& command, std::string& scene) {
   command.add_option("SCENE", scene, "a mesh file (PLY, OBJ, STL, OFF), or builtin:NAME[:SIZE]")
@@ -81,7 +79,6 @@ void add_threads_option(CLI::App& command, int& threads) {
 }
 
 void add_frame_options(CLI::App& command, FrameOptions& options) {
-  add_scene_option(command, options.scene);
   command.add_option("--size", options.size, "the frame in pixels")->type_name("WxH")->capture_default_str();
   command.add_option("--eye", options.eye, "where the camera is")->type_name("X,Y,Z");
   command.add_option("--target", options.target, "what it looks at")->type_name("X,Y,Z");
@@ -93,14 +90,21 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   add_threads_option(command, options.threads);
 }
 
+Camera file_camera(const FrameOptions& options, const TriangleMesh& mesh) {
+  const auto [width, height] = parse_size("--size", options.size);
+  const double fov = options.fov.value_or(kFileFovDegrees);
+  const Camera camera = frame_all(mesh, width, height, fov);
+  if (!options.eye && !options.target && !options.up) return camera;
+  return look(options, {{}, camera.eye, middle_of(mesh), {0.0f, 1.0f, 0.0f}, fov}, width, height);
+}
+
 Scene open_scene(const FrameOptions& options) {
   const auto [width, height] = parse_size("--size", options.size);
-  return options.scene.starts_with(kBuiltin) ? open_builtin(options, width, height)
-                                             : open_file(options, width, height);
+  return is_builtin(options.scene) ? open_builtin(options, width, height) : open_file(options);
 }
 
 TriangleMesh open_mesh(const std::string& scene) {
-  if (!scene.starts_with(kBuiltin)) return load_mesh(scene);
+  if (!is_builtin(scene)) return load_mesh(scene);
   return builtin_scene(std::string_view(scene).substr(kBuiltin.size())).mesh;
 }
 

@@ -11,8 +11,8 @@
 /// (flush-to-zero, denormals-are-zero, rounding direction) changes no answer and is the same afterwards.
 
 /// @mainpage
-/// A mesh (mesh.h, io.h, builtin.h) is asked by rays (ray.h) through a structure (structure.h: bvh.h,
-/// brute_force.h), one ray or many at a time; surface.h gives the point and normal of a hit. A camera
+/// A mesh (mesh.h, io.h, stream.h, builtin.h) is asked by rays (ray.h) through a structure (structure.h:
+/// bvh.h, brute_force.h), one ray or many at a time; surface.h gives the point and normal of a hit. A camera
 /// (camera.h) asks for a whole frame (frame.h), through a structure (cast.h) or by drawing triangles
 /// (raster.h). Frames of both are equal to the bit, and compare() says so.
 ///
@@ -36,6 +36,7 @@
 #include "plumb/simd.h"
 #include "plumb/sphere_tree.h"
 #include "plumb/statistics.h"
+#include "plumb/stream.h"
 #include "plumb/structure.h"
 #include "plumb/structures.h"
 #include "plumb/surface.h"
