@@ -37,7 +37,7 @@ struct VisibleOptions {
 /// Which way a frame is made, and why.
 struct VisibleChoice {
   VisibleMethod method;  ///< the way
-  std::string reason;  ///< a sentence
+  std::string reason;    ///< a sentence
 };
 
 /// The way that visible() takes; `structure` may be null. In time that does not depend on the scene: at most
