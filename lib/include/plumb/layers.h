@@ -17,7 +17,7 @@ struct LayeredFrame {
   /// A clear one. Throws plumb::Error when a size is below 1, or layers is not from 1 to kMostLayers.
   LayeredFrame(int width, int height, int layers);
 
-  static constexpr int kMostLayers = 4096;
+  static constexpr int kMostLayers = 4096;  ///< of a pixel
 
   /// Every entry to {+inf, kNone}.
   void clear();

@@ -10,7 +10,7 @@ namespace plumb {
 
 /// A triangle that pixels see.
 struct VisibleTriangle {
-  std::uint32_t id;
+  std::uint32_t id;      ///< as in Hit
   std::uint64_t pixels;  ///< how many see it, at least 1
 
   /// Equal in both.
