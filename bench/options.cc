@@ -26,7 +26,7 @@ before a time counts; those of the fast and the watertight arithmetic and of Emb
   --works=LIST     only these: camera,shadow,occlusion,diffuse,random,frame,build
   --rounds=N       how often the table runs each method; it shows medians (5)
   --threads=LIST   counts or "all", with commas (1,all)
-  --simd=LIST      instruction sets, with commas, or "all" (all)
+  --simd=LIST      instruction sets, with commas, "auto" for the best, or "all" (all)
   --peer-isa=ISA   the most that Embree may use: sse4.2, avx, avx2 (all that the machine has)
   --size=WxH       pixels of a frame (1280x720)
 )";
@@ -65,6 +65,7 @@ std::vector<int> parse_threads(std::string_view list, const std::string& argumen
 
 std::vector<Simd> parse_targets(std::string_view list) {
   if (list == "all") return simd_targets();
+  if (list == "auto") return {simd_targets().front()};
   std::vector<Simd> targets;
   for (const std::string_view part : split(list, ',')) targets.push_back(parse_simd(part));
   return targets;

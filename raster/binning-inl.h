@@ -14,6 +14,7 @@
 #include <limits>
 #include <vector>
 
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "pixels/float_bounds-inl.h"
 #include "pixels/projection.h"
@@ -28,8 +29,9 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Triangles that are fetched at a time.
+// Triangles that are fetched at a time, and how many ahead their vertices are asked for.
 constexpr size_t kFetched = 16;
+constexpr size_t kAhead = 32;
 
 // Their corners, coordinate by coordinate.
 struct FetchedCorners {
@@ -168,6 +170,10 @@ inline void BinTriangles(const Projection& view, MeshView mesh, size_t first, si
   wide.count = 0;
   for (size_t i = first; i < last; i += kFetched) {
     const size_t count = std::min(last - i, kFetched);
+    for (size_t next = i + kAhead; next < std::min(i + kAhead + kFetched, last); ++next) {
+      const glm::uvec3& c = mesh.triangles[next];
+      for (int v = 0; v < 3; ++v) hwy::Prefetch(&mesh.positions[c[v]]);
+    }
     FetchCorners(mesh, i, count, fetched);
     const std::uint32_t seen = bounded
                                    ? BoundTriangles<kFetched>(view, WholeFrame(view), corner, count, boxes)
