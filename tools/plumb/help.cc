@@ -98,6 +98,9 @@ Examples:
 {}
 {}
 {}
+--layers K compares what lies behind too: the first K surfaces that each pixel's ray meets, in (t, id) order;
+their files are METHOD.layer2.exr and so on. The methods tile and auto make none.
+
 --out writes METHOD.exr (channels Z, float, and id, uint), METHOD.depth.png and METHOD.id.png, and
 A-B.diff.png where two differ; with several instruction sets METHOD is METHOD-NAME.
 
@@ -109,7 +112,8 @@ Exit status: 0 the methods agree in every pixel, 1 they do not, 2 bad usage or i
 std::string render_help() {
   return fmt::format(
       R"(FILE.exr has the channels Z (float: the depth, +inf where nothing is seen) and id (uint: the triangle,
-4294967295 where nothing is seen), compressed without loss.
+4294967295 where nothing is seen), compressed without loss. FILE.csv has a line "id,pixels" and then one for
+each triangle that the frame shows, by ascending id.
 
 --stream draws scenes that are larger than memory, with the same bits: the SCENEs are mesh files, in any
 order of their triangles, read in parts that are drawn as they come; ids go on from file to file. Reading

@@ -7,6 +7,7 @@
 
 #include "plumb/cast.h"
 #include "plumb/error.h"
+#include "plumb/layers.h"
 #include "plumb/raster.h"
 #include "plumb/structures.h"
 #include "text.h"
@@ -49,17 +50,52 @@ struct DrawSettings {
   std::function<bool(double)> progress;
 };
 
-void draw(MeshView mesh, const Camera& camera, const DrawSettings& settings, RunResult& result) {
+RasterOptions raster_options(const DrawSettings& settings) {
   RasterOptions options;
   options.threads = settings.threads;
   options.simd = settings.simd;
   options.progress = settings.progress;
+  return options;
+}
+
+void take_layers(const LayeredFrame& made, RunResult& result) {
+  result.frame = made.layer(0);
+  for (int layer = 1; layer < made.layers; ++layer) result.behind.push_back(made.layer(layer));
+}
+
+void draw(MeshView mesh, const Camera& camera, int layers, const DrawSettings& settings, RunResult& result) {
+  const RasterOptions options = raster_options(settings);
+  if (layers == 1) {
+    const Stopwatch watch;
+    rasterize(mesh, camera, result.frame, options);
+    result.frame_seconds = watch.seconds();
+    return;
+  }
+  LayeredFrame made(camera.width, camera.height, layers);
   const Stopwatch watch;
-  rasterize(mesh, camera, result.frame, options);
+  rasterize_layers(mesh, camera, made, options);
   result.frame_seconds = watch.seconds();
+  take_layers(made, result);
+}
+
+void cast(const Structure& structure, const Camera& camera, int layers, const CastOptions& options,
+          RunResult& result) {
+  if (layers == 1) {
+    const Stopwatch watch;
+    plumb::cast(structure, camera, result.frame, options);
+    result.frame_seconds = watch.seconds();
+    return;
+  }
+  LayeredFrame made(camera.width, camera.height, layers);
+  const Stopwatch watch;
+  cast_layers(structure, camera, made, options);
+  result.frame_seconds = watch.seconds();
+  take_layers(made, result);
 }
 
 }  // namespace
+
+bool has_layers(Method method) { return method != Method::Tile && method != Method::Auto; }
 
 const std::vector<MethodInfo>& all_methods() {
   static const std::vector<MethodInfo> kMethods = {
@@ -164,12 +200,14 @@ Structure build_method(Method method, MeshView mesh, Simd simd, int threads,
 }
 
 RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threads,
-                  const ProgressFor& progress) {
-  RunResult result{Frame(camera.width, camera.height), std::nullopt, 0.0, std::nullopt};
+                  const ProgressFor& progress, int layers) {
+  if (layers > 1 && !has_layers(run.method))
+    throw Error(fmt::format("plumb: {} makes no layers; leave it out", method_name(run.method)));
+  RunResult result{Frame(camera.width, camera.height), {}, std::nullopt, 0.0, std::nullopt};
   const Simd simd = run.simd.value_or(Simd::Auto);
   const std::function<bool(double)> frame_progress = progress(run.name + ": frame");
   if (run.method == Method::Raster) {
-    draw(mesh, camera, {simd, threads, frame_progress}, result);
+    draw(mesh, camera, layers, {simd, threads, frame_progress}, result);
     return result;
   }
   const Stopwatch build_watch;
@@ -185,9 +223,7 @@ RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threa
   options.threads = threads;
   options.method = run.method == Method::Tile ? CastMethod::Tiles : CastMethod::Rays;
   options.progress = frame_progress;
-  const Stopwatch watch;
-  cast(structure, camera, result.frame, options);
-  result.frame_seconds = watch.seconds();
+  cast(structure, camera, layers, options, result);
   return result;
 }
 

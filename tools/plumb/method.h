@@ -37,6 +37,9 @@ std::vector<Method> parse_methods(std::string_view list);
 /// The default of `--methods`, as a list.
 std::string default_methods();
 
+/// Whether the method makes layers: all do but Method::Tile and Method::Auto.
+bool has_layers(Method method);
+
 /// One method on one SIMD target; a scalar method has none. Its name is the method's, with the
 /// target's after it where several targets take part: "bvh4-avx2".
 struct Run {
@@ -58,14 +61,16 @@ Structure build_method(Method method, MeshView mesh, Simd simd, int threads,
 using ProgressFor = std::function<std::function<bool(double)>(const std::string&)>;
 
 struct RunResult {
-  Frame frame;
+  Frame frame;                          ///< of layers, the first
+  std::vector<Frame> behind;            ///< the others
   std::optional<double> build_seconds;  ///< of the tree; a method without one has none
   double frame_seconds = 0;
   std::optional<VisibleChoice> choice;  ///< of Method::Auto
 };
 
-/// Makes the frame.
+/// Makes the frame, or as many layers (plumb/layers.h), at least 1. Throws plumb::Error for more than one of
+/// a method that has none.
 RunResult execute(const Run& run, MeshView mesh, const Camera& camera, int threads,
-                  const ProgressFor& progress);
+                  const ProgressFor& progress, int layers = 1);
 
 }  // namespace plumb::tool

@@ -2,8 +2,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "output_file.h"
 #include "plumb/error.h"
 #include "plumb/stream.h"
+#include "plumb/visible_triangles.h"
 #include "progress_bar.h"
 #include "report.h"
 #include "scene.h"
@@ -38,6 +41,7 @@ struct RenderOptions {
   std::string method, out;
   bool stream = false;
   std::optional<std::int64_t> memory_mib;
+  std::optional<std::string> visible;  ///< where the list of visible triangles goes
 };
 
 Run the_only_run(const RenderOptions& options, Method method) {
@@ -48,16 +52,34 @@ Run the_only_run(const RenderOptions& options, Method method) {
   return runs.front();
 }
 
+/// The folder of a file to write must be there.
+void check_folder(const std::string& option, const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code unreadable;
+  if (!fs::is_directory(folder, unreadable)) {
+    throw Error(fmt::format("plumb: {} {}: there is no folder {}", option, file.string(), folder.string()));
+  }
+}
+
+/// The triangles that the frame shows as comma-separated values, a line each, by id.
+std::string visible_csv(const Frame& frame) {
+  std::string text = "id,pixels\n";
+  for (const VisibleTriangle& triangle : visible_triangles(frame))
+    fmt::format_to(std::back_inserter(text), "{},{}\n", triangle.id, triangle.pixels);
+  return text;
+}
+
+void write_visible(const std::string& file, const Frame& frame) {
+  const std::string csv = visible_csv(frame);
+  write_file(file, std::as_bytes(std::span(csv)));
+}
+
 /// Before the work: what will surely go wrong after it.
 void check_out(const fs::path& out) {
   if (out.extension() != ".exr") {
     throw Error(fmt::format("plumb: --out {}: render writes OpenEXR; end the name in .exr", out.string()));
   }
-  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
-  std::error_code unreadable;
-  if (!fs::is_directory(folder, unreadable)) {
-    throw Error(fmt::format("plumb: --out {}: there is no folder {}", out.string(), folder.string()));
-  }
+  check_folder("--out", out);
 }
 
 std::size_t stream_memory(const RenderOptions& options) {
@@ -76,15 +98,18 @@ ExitStatus render_stream(const RenderOptions& options) {
   check_threads(options.frame.threads);
   const Run run = the_only_run(options, Method::Raster);
   check_out(options.out);
+  if (options.visible) check_folder("--visible", *options.visible);
   const StreamScene scene(options.scenes, memory_bytes);
   const Camera camera = stream_camera(options.frame, scene, progress_bar);
   fmt::print(stderr, "{}; {}x{} pixels from ({}, {}, {})\n", scene.name(), camera.width, camera.height,
              camera.eye.x, camera.eye.y, camera.eye.z);
   const StreamFrame result = draw_stream(scene, camera, run, options.frame.threads, progress_bar);
   write_file(options.out, encode_exr(result.frame));
+  if (options.visible) write_visible(*options.visible, result.frame);
   fmt::print(stderr, "  {}  {} triangles, {} vertices in {} part{}  {:.1f} s\nwrote {}\n", run.name,
              result.totals.triangles, result.totals.vertices, result.totals.parts,
              result.totals.parts == 1 ? "" : "s", result.seconds, options.out);
+  if (options.visible) fmt::print(stderr, "wrote {}\n", *options.visible);
   return kAgree;
 }
 
@@ -100,12 +125,15 @@ ExitStatus run_render(RenderOptions options) {
   if (!options.scenes.empty()) options.frame.scene = options.scenes.front();
   const Run run = the_only_run(options, parse_method(options.method));
   check_out(options.out);
+  if (options.visible) check_folder("--visible", *options.visible);
   const Scene scene = open_scene(options.frame);
   fmt::print(stderr, "{}\n", describe(scene));
   const RunResult result = execute(run, scene.mesh, scene.camera, options.frame.threads, progress_bar);
   write_file(options.out, encode_exr(result.frame));
+  if (options.visible) write_visible(*options.visible, result.frame);
   fmt::print(stderr, "  {}\nwrote {}\n",
              timing({run, result.build_seconds, result.frame_seconds, 0, {}, result.choice}, 0), options.out);
+  if (options.visible) fmt::print(stderr, "wrote {}\n", *options.visible);
   return kAgree;
 }
 
@@ -130,6 +158,10 @@ void add_render_command(CLI::App& app, int& status) {
   command->add_option("--memory", options->memory_mib, "--stream: what reading may hold; 64 unless said")
       ->type_name("MIB");
   command->add_option("--out", options->out, "the file to write")->type_name("FILE.exr")->required();
+  command
+      ->add_option("--visible", options->visible,
+                   "also write the triangles that the frame shows, each with its pixels")
+      ->type_name("FILE.csv");
   command->footer(render_help());
   command->callback([options, &status] { status = run_render(*options); });
 }

@@ -64,6 +64,7 @@ Json pair_json(const Pair& pair) {
   }
   return {{"a", pair.a},
           {"b", pair.b},
+          {"layer", std::max(pair.layer, 1)},
           {"agree", c.equal()},
           {"pixels", c.pixels},
           {"different_pixels", c.different_pixels},
@@ -87,13 +88,14 @@ std::string timing(const RunReport& report, std::size_t name_width) {
 std::string verdict(const CompareReport& report) {
   const std::string& first = report.runs.front().run.name;
   if (report.pairs.empty()) return fmt::format("only {}: there is nothing to compare it with", first);
+  const std::string layers = report.layers == 1 ? "" : fmt::format(" of {} layers", report.layers);
   const auto agreeing = std::count_if(report.pairs.begin(), report.pairs.end(),
                                       [](const Pair& pair) { return pair.comparison.equal(); });
   if (static_cast<std::size_t>(agreeing) == report.pairs.size()) {
-    return fmt::format("all {} frames agree in every pixel", report.runs.size());
+    return fmt::format("all {} frames agree in every pixel{}", report.runs.size(), layers);
   }
-  return fmt::format("{} of {} frames differ from {}",
-                     report.pairs.size() - static_cast<std::size_t>(agreeing), report.pairs.size(), first);
+  return fmt::format("{} of {} {} differ from {}", report.pairs.size() - static_cast<std::size_t>(agreeing),
+                     report.pairs.size(), report.layers == 1 ? "frames" : "layers", first);
 }
 
 std::string to_json(const Scene& scene, int threads, const CompareReport& report) {
@@ -105,6 +107,7 @@ std::string to_json(const Scene& scene, int threads, const CompareReport& report
                      {"scene", scene_json(scene)},
                      {"camera", camera_json(scene.camera)},
                      {"threads", threads},
+                     {"layers", report.layers},
                      {"runs", runs},
                      {"pairs", pairs},
                      {"agree", exit_status(report.pairs) == kAgree}};

@@ -24,7 +24,8 @@ struct RunReport {
 /// A comparison of several runs on one scene.
 struct CompareReport {
   std::vector<RunReport> runs;
-  std::vector<Pair> pairs;  ///< each later run against the first
+  std::vector<Pair> pairs;  ///< each later run against the first, layer by layer
+  int layers = 1;           ///< of each frame
 };
 
 /// One line: the run's name, padded to `name_width`, and its times.

@@ -27,9 +27,10 @@ ExitStatus exit_status(const std::vector<Pair>& pairs) {
 
 std::string summary(const Pair& pair) {
   const Comparison& c = pair.comparison;
-  if (c.equal()) return fmt::format("agrees with {}", pair.a);
-  return fmt::format("DIFFERS from {} in {} of {} pixels (id in {}, depth in {})", pair.a, c.different_pixels,
-                     c.pixels, c.different_ids, c.different_depths);
+  const std::string where = pair.layer == 0 ? "" : fmt::format("layer {} ", pair.layer);
+  if (c.equal()) return fmt::format("{}agrees with {}", where, pair.a);
+  return fmt::format("{}DIFFERS from {} in {} of {} pixels (id in {}, depth in {})", where, pair.a,
+                     c.different_pixels, c.pixels, c.different_ids, c.different_depths);
 }
 
 std::string differences(const Pair& pair) {

@@ -16,6 +16,7 @@ struct Pair {
   std::string a, b;  ///< the runs' names
   Comparison comparison;
   std::optional<std::string> picture;  ///< the file that shows where they differ, if one was written
+  int layer = 0;                       ///< which one, from 1; 0 where frames have one only
 };
 
 /// kAgree when no pair differs in any pixel, else kDiffer.

@@ -33,6 +33,7 @@
 #include "plumb/octree.h"
 #include "plumb/raster.h"
 #include "plumb/ray.h"
+#include "plumb/shadow_map.h"
 #include "plumb/simd.h"
 #include "plumb/sphere_tree.h"
 #include "plumb/statistics.h"
