@@ -31,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Triangles that are fetched at a time, and how many ahead their vertices are asked for.
 constexpr size_t kFetched = 16;
-constexpr size_t kAhead = 32;
+constexpr size_t kFetchAhead = 32;
 
 // Their corners, coordinate by coordinate.
 struct FetchedCorners {
@@ -170,7 +170,7 @@ inline void BinTriangles(const Projection& view, MeshView mesh, size_t first, si
   wide.count = 0;
   for (size_t i = first; i < last; i += kFetched) {
     const size_t count = std::min(last - i, kFetched);
-    for (size_t next = i + kAhead; next < std::min(i + kAhead + kFetched, last); ++next) {
+    for (size_t next = i + kFetchAhead; next < std::min(i + kFetchAhead + kFetched, last); ++next) {
       const glm::uvec3& c = mesh.triangles[next];
       for (int v = 0; v < 3; ++v) hwy::Prefetch(&mesh.positions[c[v]]);
     }
