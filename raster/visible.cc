@@ -23,6 +23,9 @@ constexpr std::size_t kSample = 1024;
 constexpr double kInView = 0.9;
 constexpr double kPerPixel = 0.1;
 
+// Where more than so many triangles in view come to a pixel, a ray for each meets few of them.
+constexpr double kManyPerPixel = 2.5;
+
 // A ray takes about as long as rasterizing two triangles.
 constexpr double kTrianglesARay = 2.0;
 
@@ -93,6 +96,9 @@ VisibleChoice choose_visible(MeshView mesh, const Structure* structure, const Ca
       return {VisibleMethod::Rays, "a ray for each pixel takes less than drawing so many triangles"};
     return {VisibleMethod::Raster, "the structure casts rays only, and drawing so few triangles takes less"};
   }
+  if (share * triangles > kManyPerPixel * pixels)
+    return {VisibleMethod::Rays,
+            "several triangles in view come to each pixel, and its ray meets few of them"};
   if (share > kInView && share * triangles > kPerPixel * pixels)
     return {VisibleMethod::Raster,
             "nearly all triangles are in view and small, so a tree would be walked for nothing"};

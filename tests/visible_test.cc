@@ -59,7 +59,8 @@ TEST_SUITE("visible") {
       bool rays_only;
       int width, height;
       VisibleMethod method;
-    } const cases[] = {{dense, false, 64, 48, VisibleMethod::Raster},  // many small triangles, all in view
+    } const cases[] = {{dense, false, 200, 150, VisibleMethod::Raster},  // small triangles, all in view
+                       {dense, false, 64, 48, VisibleMethod::Rays},      // many for each pixel
                        {sparse, false, 120, 90, VisibleMethod::Tiles},
                        {dense, true, 40, 30, VisibleMethod::Rays},
                        {sparse, true, 120, 90, VisibleMethod::Raster}};

@@ -110,8 +110,8 @@ const std::vector<MethodInfo>& all_methods() {
        false},
       {Method::Tile, "tile", "tiles of pixels through the tree of 8 children a node", true, true},
       {Method::Raster, "raster", "the rasterizer", true, true},
-      {Method::Auto, "auto", "tile or raster, whichever promises to be faster for scene and camera", true,
-       false},
+      {Method::Auto, "auto", "tile, raster or rays, whichever promises to be fastest for scene and camera",
+       true, false},
   };
   return kMethods;
 }
