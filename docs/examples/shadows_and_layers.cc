@@ -35,10 +35,10 @@ int main() {
   const glm::vec3 lamp{0, 4, 0};
   const plumb::ShadowMap map(bvh, plumb::Camera::look_at(lamp, {0, 0, 0}, {0, 0, 1}, 90, 256, 256));
   std::size_t points = 0, different = 0, dark = 0;
-  for (float x = -3; x <= 3; x += 0.125f) {
-    for (float z = -3; z <= 3; z += 0.125f) {
+  for (int i = -24; i <= 24; ++i) {
+    for (int j = -24; j <= 24; ++j) {
       plumb::Ray to_lamp;
-      to_lamp.origin = {x, 0, z};
+      to_lamp.origin = {0.125f * static_cast<float>(i), 0, 0.125f * static_cast<float>(j)};
       to_lamp.direction = lamp - to_lamp.origin;
       to_lamp.tmax = 1;  // not beyond the lamp
       const bool lit = !bvh.any(to_lamp);

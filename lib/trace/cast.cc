@@ -72,9 +72,9 @@ class FrameJob {
       : structure_(structure), camera_(camera), frame_(frame) {
     const detail::StructureData& data = structure.data();
     if (method != CastMethod::Rays && data.tiles_for != nullptr) prepare_tiles(data);
-    const int side = caster_ ? detail::kTilePx : kBlockSide;
-    columns_ = static_cast<std::size_t>((camera.width - 1) / side + 1);
-    pieces_ = columns_ * static_cast<std::size_t>((camera.height - 1) / side + 1);
+    const std::size_t side = caster_ ? detail::kTilePx : kBlockSide;
+    columns_ = static_cast<std::size_t>(camera.width - 1) / side + 1;
+    pieces_ = columns_ * (static_cast<std::size_t>(camera.height - 1) / side + 1);
   }
 
   std::size_t pieces() const { return pieces_; }

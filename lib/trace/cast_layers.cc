@@ -67,7 +67,7 @@ void cast_layers(const Structure& structure, const Camera& camera, LayeredFrame&
                  const CastOptions& options) {
   detail::check_frame(frame, camera);
   const Structure cast_through = options.simd == Simd::Auto ? structure : structure.with_simd(options.simd);
-  const auto runs = static_cast<std::size_t>((camera.width - 1) / kRun + 1);
+  const auto runs = static_cast<std::size_t>(camera.width - 1) / kRun + 1;
   const std::size_t pieces = runs * static_cast<std::size_t>(camera.height);
   detail::Progress progress(options.progress, pieces);
   detail::parallel_for(pieces, options.threads, [&](std::size_t piece) {
