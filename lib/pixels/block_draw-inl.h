@@ -202,8 +202,9 @@ HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
 
 // Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
 template <class Triangles, class State, class Counts>
-HWY_INLINE void DrawBlocks(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
-                           bool side_open, State& state, Counts& counts) {
+HWY_NOINLINE inline void DrawBlocks(const TileView& view, const Triangles& triangles,
+                                    const TileTriangle& triangle, bool side_open, State& state,
+                                    Counts& counts) {
   const hn::CappedTag<float, 16> d;
   const std::uint64_t box = BoxBlocks(triangle);
   const size_t lanes = hn::Lanes(d);

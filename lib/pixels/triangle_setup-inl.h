@@ -180,8 +180,8 @@ HWY_INLINE void LoadCorners(const Projection& view, const float* const corner[9]
 }
 
 // Sets up the candidates from `first` on: their planes over the frame.
-HWY_INLINE void SetUpLanes(const Projection& view, const SetupCandidates& from, size_t first,
-                           SetupLanes& lanes, std::uint32_t& side_open, std::uint32_t& uncovered) {
+HWY_NOINLINE inline void SetUpLanes(const Projection& view, const SetupCandidates& from, size_t first,
+                                    SetupLanes& lanes, std::uint32_t& side_open, std::uint32_t& uncovered) {
   const float* corner[9];
   for (int k = 0; k < 9; ++k) corner[k] = from.corner[k] + first;
   LoadCorners(view, corner, lanes);
