@@ -7,7 +7,7 @@
 
 namespace plumb::detail {
 
-/// A mesh's triangles as tiles are drawn from them (pixels/tile_state-inl.h).
+/// A mesh's triangles as tiles are drawn from them (pixels/tile_settle-inl.h).
 struct MeshTriangles {
   MeshView mesh;
   std::uint32_t first_id;

@@ -21,6 +21,10 @@ struct TileCounts {
     ++to.blocks;
     to.blocks_full += full ? 1 : 0;
   }
+  void won_blocks(std::uint32_t bits) {
+    to.blocks += static_cast<std::uint64_t>(std::popcount(bits));
+    to.blocks_full += static_cast<std::uint64_t>(std::popcount(bits));
+  }
   void open_pixels(std::uint32_t bits) {
     to.pixels_decided += static_cast<std::uint64_t>(std::popcount(bits));
   }

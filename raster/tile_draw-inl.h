@@ -19,8 +19,8 @@
 #include "pixels/block_draw-inl.h"
 #include "pixels/candidate_draw-inl.h"
 #include "pixels/no_tile_counts.h"
+#include "pixels/tile_frame-inl.h"
 #include "pixels/tile_planes-inl.h"
-#include "pixels/tile_state-inl.h"
 #include "raster/kernels.h"
 #include "raster/tile_counts.h"
 
@@ -190,6 +190,7 @@ inline void DrawLayers(const TileJob& job, const MeshTriangles& mesh, LayeredFra
   NoTileCounts counts;
   LayeredTile tile;
   StartTile(job.view, tile);
+  PartBlocks(tile);
   load_entries(job.view, frame, tile);
   for (int block = 0; block < kTileBlocks * kTileBlocks; ++block) SetBounds(tile, block, 0xffffu);
   HideOutside(tile);

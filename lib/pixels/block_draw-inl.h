@@ -17,7 +17,7 @@
 #include "base/mask_bits-inl.h"
 #include "hwy/highway.h"
 #include "pixels/tile_planes-inl.h"
-#include "pixels/tile_state-inl.h"
+#include "pixels/tile_settle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
@@ -39,7 +39,7 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
     if ((certain >> i & 1) == 0) {
       decide_pixel(view, state, offset, Placed(triangles, state, triangle));
     } else if (t[i] < state.t[offset] || (t[i] == state.t[offset] && id < state.id[offset])) {
-      state.winner[offset] = state.known[offset] = triangle;
+      state.winner[offset] = triangle;
       state.t[offset] = t[i];
       state.id[offset] = id;
     }
@@ -70,27 +70,21 @@ HWY_INLINE void PlanesAt(const TileTriangle& triangle, int block, float centre[4
   }
 }
 
-// The last of them, 1/t.
-HWY_INLINE void InverseAt(const TileTriangle& triangle, int block, float centre[4]) {
-  const hn::CappedTag<float, 1> d;
-  const auto row =
-      hn::MulAdd(hn::Set(d, triangle.b[3]), hn::Set(d, kCentres.block_y[block]), hn::Set(d, triangle.c[3]));
-  centre[3] = hn::GetLane(hn::MulAdd(hn::Set(d, triangle.a[3]), hn::Set(d, kCentres.block_x[block]), row));
-}
-
 // A plane at the pixels of a block from `lane` on.
 template <class D>
 HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const float centre[4], int plane,
                                     size_t lane) {
-  const auto column = hn::Mul(hn::Set(d, triangle.a[plane]), hn::Load(d, kCentres.pixel_x + lane));
-  const auto row = hn::MulAdd(hn::Set(d, triangle.b[plane]), hn::Load(d, kCentres.pixel_y + lane),
-                              hn::Set(d, centre[plane]));
-  return hn::Add(column, row);
+  return PlaneAtPixels(d, triangle.a[plane], triangle.b[plane], centre[plane], lane);
+}
+
+// The plane of 1/t.
+HWY_INLINE InversePlane InverseOf(const TileTriangle& triangle) {
+  return {triangle.a[3], triangle.b[3], triangle.c[3], triangle.error[3]};
 }
 
 // `Counts` is told what is tested: NoTileCounts (pixels/no_tile_counts.h) or raster/tile_counts.h.
 
-// Draws the triangle into a block; with `kFull` it certainly covers every pixel.
+// Draws the triangle into a block, which is not whole; with `kFull` it certainly covers every pixel.
 template <bool kFull, class Triangles, class Counts>
 HWY_INLINE void DrawNearest(const TileView& view, const Triangles& triangles, const TileTriangle& triangle,
                             bool side_open, int block, TileState& state, Counts& counts) {
@@ -99,7 +93,7 @@ HWY_INLINE void DrawNearest(const TileView& view, const Triangles& triangles, co
   const hn::RebindToUnsigned<decltype(d)> du;
   HWY_ALIGN float centre[4];
   if constexpr (kFull) {
-    InverseAt(triangle, block, centre);
+    centre[3] = InverseAt(InverseOf(triangle), block);
   } else {
     PlanesAt(triangle, block, centre);
   }
@@ -127,6 +121,7 @@ HWY_INLINE void DrawNearest(const TileView& view, const Triangles& triangles, co
     depth_open |= MaskBits(d, hn::AndNot(won, covered)) << lane;
     if constexpr (!kFull) edge_open |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;
   }
+  state.settled[block] &= static_cast<std::uint16_t>(~won_bits);
   state.changed |= std::uint64_t{(won_bits | depth_open | edge_open) != 0} << block;
   if (HWY_LIKELY((depth_open | edge_open) == 0)) return;
   if (side_open) {
@@ -188,6 +183,7 @@ HWY_INLINE void DrawBlock(const TileView& view, const Triangles& triangles, cons
   if constexpr (State::kLayered) {
     DrawEntries<kFull>(view, triangles, triangle, side_open, block, state, counts);
   } else {
+    PartIfWhole(state, block);
     DrawNearest<kFull>(view, triangles, triangle, side_open, block, state, counts);
   }
 }
@@ -198,6 +194,21 @@ HWY_INLINE std::uint64_t BoxBlocks(const TileTriangle& triangle) {
   const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - triangle.y1 / kBlockPx))) &
                              (~std::uint64_t{0} << (8 * (triangle.y0 / kBlockPx)));
   return columns * 0x0101010101010101u & rows;
+}
+
+// Gives the triangle the blocks whose bit is set: they are whole.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void WinBlocks(D d, const TileTriangle& triangle, size_t first, std::uint32_t won, V low, V high,
+                          TileState& state) {
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto mask = MaskOfBits(d, won);
+  hn::BlendedStore(low, mask, d, state.block_low + first);
+  hn::BlendedStore(high, mask, d, state.block_high + first);
+  hn::BlendedStore(hn::Set(du, triangle.place), hn::RebindMask(du, mask), du, state.block_winner + first);
+  state.drawn.inverse[triangle.place] = InverseOf(triangle);
+  const std::uint64_t blocks = std::uint64_t{won} << first;
+  state.whole |= blocks;
+  state.changed |= blocks;
 }
 
 // Draws a triangle whose box has many blocks: those that it meets, a vector at a time.
@@ -214,11 +225,22 @@ HWY_NOINLINE inline void DrawBlocks(const TileView& view, const Triangles& trian
   Grow(triangle, 1.5f, grow);
   for (size_t first = begin; first < end; first += lanes) {
     auto open = hn::FirstN(d, 0), full = hn::FirstN(d, 0);
-    TestBlocks(d, triangle, grow, first, state.block_low, open, full);
+    auto low = hn::Zero(d), high = hn::Zero(d);
+    TestBlocks(d, triangle, grow, first, state.block_low, open, full, low, high);
     counts.block_tests(lanes);
     const std::uint32_t full_bits = MaskBits(d, full);
-    for (std::uint32_t bits = MaskBits(d, open) & static_cast<std::uint32_t>(box >> first); bits != 0;
-         bits &= bits - 1) {
+    std::uint32_t bits = MaskBits(d, open) & static_cast<std::uint32_t>(box >> first);
+    if constexpr (!State::kLayered) {
+      // In front of all that a whole block sees, it takes the place of that.
+      const std::uint32_t won =
+          bits & full_bits & MaskBits(d, hn::Gt(low, hn::Load(d, state.block_high + first)));
+      if (won != 0 && !side_open) {
+        WinBlocks(d, triangle, first, won, low, high, state);
+        counts.won_blocks(won);
+        bits &= ~won;
+      }
+    }
+    for (; bits != 0; bits &= bits - 1) {
       const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const int block = static_cast<int>(first + i);
       if ((full_bits >> i & 1) != 0) {

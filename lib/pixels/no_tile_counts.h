@@ -10,6 +10,7 @@ struct NoTileCounts {
   void tile(bool) {}
   void block_tests(std::size_t) {}
   void block(bool) {}
+  void won_blocks(std::uint32_t) {}
   void open_pixels(std::uint32_t) {}
 };
 

@@ -147,10 +147,10 @@ HWY_INLINE bool OutsideTile(const ScreenTriangle& triangle, int tile_x, int tile
 
 // Of the blocks [first, first + Lanes) of a tile: those that may hold a pixel that the triangle covers and
 // that `low`, a bound of 1/t, does not hide; and those whose every pixel it certainly covers. `grow` is that
-// of a block, 1.5 pixels.
-template <class D>
+// of a block, 1.5 pixels. Also the least and the greatest bound of 1/t in each.
+template <class D, class V = hn::Vec<D>>
 HWY_INLINE void TestBlocks(D d, const TileTriangle& triangle, const float grow[4], size_t first,
-                           const float* low, hn::Mask<D>& open, hn::Mask<D>& full) {
+                           const float* hidden_below, hn::Mask<D>& open, hn::Mask<D>& full, V& low, V& high) {
   const auto x = hn::Load(d, kCentres.block_x + first);
   const auto y = hn::Load(d, kCentres.block_y + first);
   const auto value = [&](int i) HWY_ATTR {
@@ -166,8 +166,11 @@ HWY_INLINE void TestBlocks(D d, const TileTriangle& triangle, const float grow[4
     closed = hn::Or(closed, hn::Lt(hn::Add(edge, room), hn::Zero(d)));
     partly = hn::Or(partly, hn::Not(hn::Gt(edge, room)));
   }
-  const auto high = hn::Min(hn::Add(value(3), hn::Set(d, grow[3])), hn::Set(d, triangle.nearest));
-  closed = hn::Or(closed, hn::Lt(high, hn::Load(d, low + first)));
+  const V inverse = value(3);
+  low = hn::Sub(inverse, hn::Set(d, grow[3]));
+  high = hn::Add(inverse, hn::Set(d, grow[3]));
+  const V nearest = hn::Min(high, hn::Set(d, triangle.nearest));
+  closed = hn::Or(closed, hn::Lt(nearest, hn::Load(d, hidden_below + first)));
   open = hn::Not(closed);
   full = hn::AndNot(partly, open);
 }

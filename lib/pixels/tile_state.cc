@@ -17,7 +17,6 @@ glm::vec3 direction(const TileView& view, int offset) {
 }  // namespace
 
 void learn_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& winner) {
-  state.known[offset] = winner.place;
   state.t[offset] = line_depth(view.camera.eye, direction(view, offset), winner.corners);
   state.id[offset] = winner.id;
 }
@@ -31,7 +30,7 @@ bool decide_pixel(const TileView& view, TileState& state, int offset, const Plac
   float t = 0.0f;
   if (!line_hit(ray.origin, ray.direction, triangle.corners, t) || !depth_counts(ray, t)) return false;
   if (!hit_before(t, triangle.id, {state.t[offset], state.id[offset]})) return false;
-  state.winner[offset] = state.known[offset] = triangle.place;
+  state.winner[offset] = triangle.place;
   state.t[offset] = t;
   state.id[offset] = triangle.id;
   return true;

@@ -19,6 +19,11 @@ struct TileView {
   int x, y;         ///< of the tile's upper left pixel
 };
 
+/// Bounds of 1/t over a tile, as TileTriangle has them: c + a x + b y, `error` more or less.
+struct alignas(16) InversePlane {
+  float a, b, c, error;
+};
+
 /// The triangles drawn into a tile of late, each with what gives its exact depths; pixels refer to them by
 /// their place here.
 struct DrawnTriangles {
@@ -26,17 +31,22 @@ struct DrawnTriangles {
 
   alignas(64) double plane[6][kRoom];  ///< N, T, and exact/depth-inl.h's PlaneBounds
   alignas(64) std::uint32_t id[kRoom];
-  std::uint32_t index[kRoom];  ///< among the triangles that the tile is drawn from
+  InversePlane inverse[kRoom];  ///< of those that won whole blocks
+  std::uint32_t index[kRoom];   ///< among the triangles that the tile is drawn from
   std::size_t count;
 };
 
 /// A tile while triangles are drawn into it, pixels ordered as pixels/tile.h says. Each pixel's nearest
 /// triangle so far has bounds of 1/t; its exact t is computed only where bounds overlap, and once at the
 /// end for each pixel that a triangle won.
+///
+/// A block is whole while all its pixels see the same triangle, or nothing: then only what the block has
+/// counts, and nothing is kept for each of its pixels. So a large triangle wins many blocks at once.
 struct TileState {
   static constexpr bool kLayered = false;  ///< LayeredTile's is true
 
-  /// None of `drawn`: the pixel's answer is t and id, as the frame held them or as they were settled since.
+  /// None of `drawn`: the pixel's answer is t and id, as the frame held them or as they were settled since. A
+  /// whole block sees nothing.
   static constexpr std::uint32_t kEarlier = 0xffffffffu;
   /// Below this 1/t a hit's t might round to infinity.
   static constexpr float kLeastInverse = 0x1p-126f;
@@ -48,26 +58,33 @@ struct TileState {
   alignas(64) float inverse_high[kTilePixels];
   /// That triangle's place in `drawn`, or kEarlier.
   alignas(64) std::uint32_t winner[kTilePixels];
-  /// Whose exact answer (t, id) is; where that is not `winner`, the answer is still to be computed.
-  alignas(64) std::uint32_t known[kTilePixels];
   alignas(64) float t[kTilePixels];  ///< -inf in pixels outside the frame: nothing wins them.
   alignas(64) std::uint32_t id[kTilePixels];
+  /// A bit for each pixel of each block where (t, id) is the winner's exact answer; elsewhere it is still to
+  /// be computed.
+  alignas(64) std::uint16_t settled[kTileBlocks * kTileBlocks];
   /// At most the least inverse_low of each block, and of the tile: what is certainly farther is hidden in all
   /// of it. They may be out of date, for a pixel's answer only ever comes nearer.
   alignas(64) float block_low[kTileBlocks * kTileBlocks];
   float tile_low;
+  /// At least the greatest inverse_high of each whole block, infinite for the others.
+  alignas(64) float block_high[kTileBlocks * kTileBlocks];
+  /// The `winner` of each whole block's pixels.
+  alignas(64) std::uint32_t block_winner[kTileBlocks * kTileBlocks];
+  std::uint64_t whole;  ///< a bit for each block that is
   /// What the directions of pixels are made of, component by component: the part of a pixel's column for each
   /// pixel of a block of each column of blocks, and that of its row.
   alignas(64) double direction_x[3][kTileBlocks * kBlockPixels];
   alignas(64) double direction_y[3][kTileBlocks * kBlockPixels];
-  /// Blocks whose pixels' bounds have changed since block_low was computed, a bit each.
+  /// Blocks whose bounds have changed since block_low and tile_low were computed, a bit each.
   std::uint64_t changed;
   DrawnTriangles drawn;
 };
 
 /// A tile of which each pixel keeps the first triangles that it meets, not one. Of what it has as a
 /// TileState, `t` is the depth of a pixel's last entry, infinite while there is room for more, and the bounds
-/// of 1/t are that one's; `winner`, `known` and `id` are not used.
+/// of 1/t are that one's; `winner`, `settled` and `id` are not used, and no block
+/// is whole.
 struct LayeredTile : TileState {
   static constexpr bool kLayered = true;
 
@@ -83,11 +100,11 @@ struct PlacedTriangle {
   Triangle corners;
 };
 
-/// Computes (t, id) of the pixel's winner, which covers it for certain.
+/// Puts the exact (t, id) of the pixel's winner, which covers it for certain, into `t` and `id`.
 void learn_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& winner);
 
-/// Decides whether the triangle wins the pixel, whose winner must be known. The bounds of 1/t are left
-/// to the caller. True when it does.
+/// Decides whether the triangle wins the pixel, which must be settled, and stays so. The bounds of 1/t are
+/// left to the caller. True when it does.
 bool decide_pixel(const TileView& view, TileState& state, int offset, const PlacedTriangle& triangle);
 
 /// Decides whether the pixel's ray meets the triangle, and adds the hit.

@@ -26,7 +26,7 @@
 #include "pixels/float_bounds-inl.h"
 #include "pixels/no_tile_counts.h"
 #include "pixels/screen_bounds-inl.h"
-#include "pixels/tile_state-inl.h"
+#include "pixels/tile_frame-inl.h"
 #include "tiles/tile_frustum.h"
 #include "tiles/tile_kernel.h"
 #include "tiles/tree_triangles.h"

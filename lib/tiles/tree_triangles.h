@@ -9,7 +9,7 @@
 
 namespace plumb::detail {
 
-/// A wide tree's triangles as tiles are drawn from them (pixels/tile_state-inl.h): lane i of block b is
+/// A wide tree's triangles as tiles are drawn from them (pixels/tile_settle-inl.h): lane i of block b is
 /// triangle W b + i.
 template <int W>
 struct TreeTriangles {
