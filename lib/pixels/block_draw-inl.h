@@ -59,22 +59,17 @@ inline void DecidePixels(const TileView& view, const Triangles& triangles, TileS
   SetBounds(state, block, pixels);
 }
 
-// The planes at a block's centre.
-HWY_INLINE void PlanesAt(const TileTriangle& triangle, int block, float centre[4]) {
-  const hn::CappedTag<float, 4> d;
-  for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
-    const auto row = hn::MulAdd(hn::Load(d, triangle.b + i), hn::Set(d, kCentres.block_y[block]),
-                                hn::Load(d, triangle.c + i));
-    hn::Store(hn::MulAdd(hn::Load(d, triangle.a + i), hn::Set(d, kCentres.block_x[block]), row), d,
-              centre + i);
-  }
+// A triangle's plane at pixels of the tile.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PlaneAt(D d, const TileTriangle& triangle, int plane, V x, V y) {
+  return PlaneAt(d, triangle.a[plane], triangle.b[plane], triangle.c[plane], x, y);
 }
 
-// A plane at the pixels of a block from `lane` on.
-template <class D>
-HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, const TileTriangle& triangle, const float centre[4], int plane,
-                                    size_t lane) {
-  return PlaneAtPixels(d, triangle.a[plane], triangle.b[plane], centre[plane], lane);
+// The least of its edge functions there: NaN where one is, but then their error is infinite.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LeastEdge(D d, const TileTriangle& triangle, V x, V y) {
+  return hn::Min(hn::Min(PlaneAt(d, triangle, 0, x, y), PlaneAt(d, triangle, 1, x, y)),
+                 PlaneAt(d, triangle, 2, x, y));
 }
 
 // The plane of 1/t.
@@ -91,27 +86,21 @@ HWY_INLINE void DrawNearest(const TileView& view, const Triangles& triangles, co
   counts.block(kFull);
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  HWY_ALIGN float centre[4];
-  if constexpr (kFull) {
-    centre[3] = InverseAt(InverseOf(triangle), block);
-  } else {
-    PlanesAt(triangle, block, centre);
-  }
   std::uint32_t won_bits = 0, depth_open = 0, edge_open = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
-    const auto inverse = PlaneAtPixels(d, triangle, centre, 3, lane);
+    auto x = hn::Zero(d), y = hn::Zero(d);
+    PixelCentres(d, block, lane, x, y);
+    const auto inverse = PlaneAt(d, triangle, 3, x, y);
     const auto error = hn::Set(d, triangle.error[3]);
     const auto low = hn::Sub(inverse, error);
     const auto high = hn::Add(inverse, error);
     auto closed = hn::Lt(high, hn::Load(d, state.inverse_low + offset));
     auto covered = hn::Not(closed);
     if constexpr (!kFull) {
-      for (int i = 0; i < 3; ++i) {
-        const auto edge = PlaneAtPixels(d, triangle, centre, i, lane);
-        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
-        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
-      }
+      const auto edge = LeastEdge(d, triangle, x, y);
+      closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.edge_error)));
+      covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.edge_error)));
     }
     const auto won = hn::And(covered, hn::Gt(low, hn::Load(d, state.inverse_high + offset)));
     hn::BlendedStore(low, won, d, state.inverse_low + offset);
@@ -140,20 +129,18 @@ inline void DrawEntries(const TileView& view, const Triangles& triangles, const 
                         bool side_open, int block, LayeredTile& tile, Counts& counts) {
   counts.block(kFull);
   const hn::CappedTag<float, 16> d;
-  HWY_ALIGN float centre[4];
-  PlanesAt(triangle, block, centre);
   std::uint32_t covered_bits = 0, open_bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
-    const auto high = hn::Add(PlaneAtPixels(d, triangle, centre, 3, lane), hn::Set(d, triangle.error[3]));
+    auto x = hn::Zero(d), y = hn::Zero(d);
+    PixelCentres(d, block, lane, x, y);
+    const auto high = hn::Add(PlaneAt(d, triangle, 3, x, y), hn::Set(d, triangle.error[3]));
     auto closed = hn::Lt(high, hn::Load(d, tile.inverse_low + offset));
     auto covered = hn::Not(closed);
     if constexpr (!kFull) {
-      for (int i = 0; i < 3; ++i) {
-        const auto edge = PlaneAtPixels(d, triangle, centre, i, lane);
-        closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.error[i])));
-        covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.error[i])));
-      }
+      const auto edge = LeastEdge(d, triangle, x, y);
+      closed = hn::Or(closed, hn::Lt(edge, hn::Set(d, -triangle.edge_error)));
+      covered = hn::And(covered, hn::Gt(edge, hn::Set(d, triangle.edge_error)));
     }
     covered_bits |= MaskBits(d, covered) << lane;
     open_bits |= MaskBits(d, hn::Not(hn::Or(closed, covered))) << lane;

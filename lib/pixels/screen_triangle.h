@@ -32,6 +32,7 @@ struct alignas(16) ScreenTriangle {
 /// between a value computed at a pixel and the exact one for its ray.
 struct alignas(16) TileTriangle {
   float a[4], b[4], c[4], error[4];
+  float edge_error;  ///< the greatest of the edge functions'
   float nearest;
   std::uint32_t place;          ///< in TileState::drawn
   std::uint8_t x0, y0, x1, y1;  ///< in the tile

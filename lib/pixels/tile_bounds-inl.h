@@ -78,19 +78,17 @@ HWY_INLINE void UpdateLows(TileState& state) {
   state.tile_low = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-// A plane at a block's pixels from `lane` on; `centre` is its value at the block's centre.
-template <class D>
-HWY_INLINE hn::Vec<D> PlaneAtPixels(D d, float a, float b, float centre, size_t lane) {
-  const auto column = hn::Mul(hn::Set(d, a), hn::Load(d, kCentres.pixel_x + lane));
-  const auto row = hn::MulAdd(hn::Set(d, b), hn::Load(d, kCentres.pixel_y + lane), hn::Set(d, centre));
-  return hn::Add(column, row);
+// The centres of a block's pixels from `lane` on, from the tile's.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PixelCentres(D d, int block, size_t lane, V& x, V& y) {
+  x = hn::Add(hn::Set(d, kCentres.block_x[block]), hn::Load(d, kCentres.pixel_x + lane));
+  y = hn::Add(hn::Set(d, kCentres.block_y[block]), hn::Load(d, kCentres.pixel_y + lane));
 }
 
-// The plane of 1/t at a block's centre.
-HWY_INLINE float InverseAt(const InversePlane& plane, int block) {
-  const hn::CappedTag<float, 1> d;
-  const auto row = hn::MulAdd(hn::Set(d, plane.b), hn::Set(d, kCentres.block_y[block]), hn::Set(d, plane.c));
-  return hn::GetLane(hn::MulAdd(hn::Set(d, plane.a), hn::Set(d, kCentres.block_x[block]), row));
+// A plane there.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PlaneAt(D d, float a, float b, float c, V x, V y) {
+  return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Set(d, c)));
 }
 
 // Gives each pixel of a whole block what it is to have of its own.
@@ -100,7 +98,6 @@ inline void PartBlock(TileState& state, int block) {
   const std::uint32_t winner = state.block_winner[block];
   const bool empty = winner == TileState::kEarlier;
   const InversePlane plane = state.drawn.inverse[empty ? 0 : winner];
-  const float centre = InverseAt(plane, block);
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
     hn::Store(hn::Set(du, winner), du, state.winner + offset);
@@ -110,7 +107,9 @@ inline void PartBlock(TileState& state, int block) {
       hn::Store(hn::Set(d, kFloatInfinity), d, state.t + offset);
       hn::Store(hn::Set(du, kNone), du, state.id + offset);
     } else {
-      const auto inverse = PlaneAtPixels(d, plane.a, plane.b, centre, lane);
+      auto x = hn::Zero(d), y = hn::Zero(d);
+      PixelCentres(d, block, lane, x, y);
+      const auto inverse = PlaneAt(d, plane.a, plane.b, plane.c, x, y);
       hn::Store(hn::Sub(inverse, hn::Set(d, plane.error)), d, state.inverse_low + offset);
       hn::Store(hn::Add(inverse, hn::Set(d, plane.error)), d, state.inverse_high + offset);
     }

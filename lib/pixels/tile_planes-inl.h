@@ -98,6 +98,7 @@ HWY_INLINE void PlaceTriangle(const ScreenTriangle& from, int tile_x, int tile_y
     hn::Store(centre, df, to.c + lane);
     hn::Store(error, df, to.error + lane);
   }
+  to.edge_error = std::max(to.error[0], std::max(to.error[1], to.error[2]));
   to.nearest = from.nearest;
   to.x0 = static_cast<std::uint8_t>(std::max(from.x0 - tile_x, 0));
   to.y0 = static_cast<std::uint8_t>(std::max(from.y0 - tile_y, 0));

@@ -38,6 +38,7 @@ struct SetupLanes {
 
   // The same about a tile.
   alignas(64) float tile_a[4][8], tile_b[4][8], tile_c[4][8], tile_error[4][8];
+  alignas(64) float edge_error[8];
 };
 
 // n.D over the frame times `scale` is the plane; `error` is its bound before scaling.
@@ -207,6 +208,8 @@ HWY_INLINE void PlaceLanes(SetupVector tile_x, SetupVector tile_y, SetupLanes& l
     hn::Store(centre, df, lanes.tile_c[k]);
     hn::Store(error, df, lanes.tile_error[k]);
   }
+  const auto error = [&](int k) HWY_ATTR { return hn::Load(df, lanes.tile_error[k]); };
+  hn::Store(hn::Max(error(0), hn::Max(error(1), error(2))), df, lanes.edge_error);
 }
 
 // Everything but `place`. The box lies in one tile.
@@ -218,6 +221,7 @@ HWY_INLINE void StorePlaced(const SetupLanes& lanes, size_t lane, const SetupCan
     to.c[k] = lanes.tile_c[k][lane];
     to.error[k] = lanes.tile_error[k][lane];
   }
+  to.edge_error = lanes.edge_error[lane];
   to.nearest = from.nearest[i];
   to.x0 = static_cast<std::uint8_t>(from.x0[i] % kTilePx);
   to.y0 = static_cast<std::uint8_t>(from.y0[i] % kTilePx);
