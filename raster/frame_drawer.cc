@@ -94,10 +94,6 @@ void FrameDrawer::draw_tile(MeshView mesh, std::uint32_t first_id, std::size_t t
   const std::size_t columns = static_cast<std::size_t>(bins_.tiles().columns);
   const TileView view{camera_, projection_.exact_only, static_cast<int>(tile % columns) * kTilePx,
                       static_cast<int>(tile / columns) * kTilePx};
-  if (contents.empty()) {
-    if constexpr (std::is_same_v<AnyFrame, Frame>) clear_tile(view, frame);
-    return;
-  }
   const TileJob job{projection_, view, contents, fresh};
   run(job, MeshTriangles{mesh, first_id}, frame);
 }

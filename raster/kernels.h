@@ -46,7 +46,7 @@ struct RasterKernels {
   /// Adds the mesh's triangles from `first` to before `last`, but those that no pixel sees.
   void (*bin)(const Projection& view, MeshView mesh, std::size_t first, std::size_t last,
               BinnedTriangles& to);
-  /// Draws a tile and merges it into the frame.
+  /// Draws a tile and merges it into the frame; where it may see nothing, clears it.
   void (*draw_tile)(const TileJob& job, const MeshTriangles& mesh, Frame& frame);
   /// Adds what the tile's pixels meet to the frame's entries.
   void (*draw_layers)(const TileJob& job, const MeshTriangles& mesh, LayeredFrame& frame);

@@ -176,6 +176,10 @@ HWY_INLINE void DrawContents(const TileJob& job, const MeshTriangles& mesh, Stat
 
 template <class Counts>
 HWY_INLINE void DrawFrame(const TileJob& job, const MeshTriangles& mesh, Frame& frame, Counts& counts) {
+  if (job.contents.empty()) {
+    ClearTile(job.view, frame);
+    return;
+  }
   TileState state;
   if (job.fresh) {
     StartTile(job.view, state);

@@ -102,15 +102,4 @@ void store_entries(const TileView& view, const LayeredTile& tile, LayeredFrame& 
   });
 }
 
-void clear_tile(const TileView& view, Frame& frame) {
-  const int columns = std::min(kTilePx, view.camera.width - view.x);
-  const int rows = std::min(kTilePx, view.camera.height - view.y);
-  for (int y = view.y; y < view.y + rows; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.camera.width) +
-                              static_cast<std::size_t>(view.x);
-    std::fill_n(frame.depth.data() + first, columns, std::numeric_limits<float>::infinity());
-    std::fill_n(frame.id.data() + first, columns, kNone);
-  }
-}
-
 }  // namespace plumb::detail

@@ -119,7 +119,4 @@ void load_entries(const TileView& view, const LayeredFrame& frame, LayeredTile& 
 /// Gives them to the frame.
 void store_entries(const TileView& view, const LayeredTile& tile, LayeredFrame& frame);
 
-/// Gives the frame what a tile sees that nothing was drawn into.
-void clear_tile(const TileView& view, Frame& frame);
-
 }  // namespace plumb::detail

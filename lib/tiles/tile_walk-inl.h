@@ -120,7 +120,7 @@ class TileWalk {
     if (started_) {
       StoreTile(view_, triangles_, state_, frame);
     } else {
-      clear_tile(view_, frame);
+      ClearTile(view_, frame);
     }
   }
 
