@@ -28,21 +28,27 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Triangles>
 inline void DecideDepths(const TileView& view, const Triangles& triangles, TileState& state, int block,
                          std::uint32_t triangle, std::uint32_t pixels) {
-  const int first = block * kBlockPixels;
   LearnBlock(view, triangles, state, block, pixels);
+  const size_t first = static_cast<size_t>(block) * kBlockPixels;
   HWY_ALIGN float t[kBlockPixels];
   const std::uint32_t certain = BlockDepthsOf(BlockRays(state, block), state.drawn, triangle, pixels, t);
-  const std::uint32_t id = state.drawn.id[triangle];
-  for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-    const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-    const int offset = first + i;
-    if ((certain >> i & 1) == 0) {
-      decide_pixel(view, state, offset, Placed(triangles, state, triangle));
-    } else if (t[i] < state.t[offset] || (t[i] == state.t[offset] && id < state.id[offset])) {
-      state.winner[offset] = triangle;
-      state.t[offset] = t[i];
-      state.id[offset] = id;
-    }
+  const hn::CappedTag<float, 16> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto id = hn::Set(du, state.drawn.id[triangle]);
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const size_t offset = first + lane;
+    const auto depth = hn::Load(d, t + lane), known = hn::Load(d, state.t + offset);
+    const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(du, state.id + offset)));
+    const auto before = hn::Or(hn::Lt(depth, known), hn::And(hn::Eq(depth, known), lower_id));
+    const auto won = hn::And(before, MaskOfBits(d, certain >> lane));
+    const auto won_ids = hn::RebindMask(du, won);
+    hn::BlendedStore(depth, won, d, state.t + offset);
+    hn::BlendedStore(id, won_ids, du, state.id + offset);
+    hn::BlendedStore(hn::Set(du, triangle), won_ids, du, state.winner + offset);
+  }
+  for (std::uint32_t open = pixels & ~certain; open != 0; open &= open - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
+    decide_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, triangle));
   }
   SetBounds(state, block, pixels);
 }
