@@ -14,6 +14,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "pixels/pixel_direction-inl.h"
 #include "pixels/tile_bounds-inl.h"
@@ -195,20 +196,42 @@ inline void ClearTile(const TileView& view, Frame& frame) {
   }
 }
 
-// Gives the frame a row of blocks' pixels, all of which it has. They go by way of a buffer: whole vectors are
-// stored several times as fast as the four pixels that a block has side by side.
+// A vector of pixels side by side, four of each block.
+template <class D>
+HWY_INLINE hn::Vec<D> LoadAcross(D d, const hn::TFromD<D>* blocks) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(d) > kBlockPx) {
+    const hn::Half<D> half;
+    const size_t next = hn::Lanes(half) / kBlockPx * kBlockPixels;
+    return hn::Combine(d, LoadAcross(half, blocks + next), LoadAcross(half, blocks));
+  }
+#endif
+  return hn::Load(d, blocks);
+}
+
+// Gives the frame a row of blocks' pixels, all of which it has; whole vectors are stored several times as
+// fast as the four pixels that a block has side by side.
 template <class T>
 HWY_INLINE void StoreBlocks(const T* blocks, const TileView& view, int row, T* frame) {
-  alignas(64) T pixels[kBlockPx][kTilePx];
-  for (size_t block = 0; block < kTileBlocks; ++block) {
-    for (size_t y = 0; y < kBlockPx; ++y)
-      std::memcpy(pixels[y] + block * kBlockPx, blocks + block * kBlockPixels + y * kBlockPx,
-                  kBlockPx * sizeof(T));
-  }
   const hn::CappedTag<T, 16> d;
   for (int y = 0; y < kBlockPx; ++y) {
     T* const to = frame + RowOf(view, row * kBlockPx + y);
-    for (size_t x = 0; x < kTilePx; x += hn::Lanes(d)) hn::StoreU(hn::Load(d, pixels[y] + x), d, to + x);
+    const T* const from = blocks + y * kBlockPx;
+    for (size_t x = 0; x < kTilePx; x += hn::Lanes(d))
+      hn::StoreU(LoadAcross(d, from + x / kBlockPx * kBlockPixels + x % kBlockPx), d, to + x);
+  }
+}
+
+// Fetches the lines of a frame that a row of the tile's blocks is stored to.
+HWY_INLINE void FetchRow(const TileView& view, const Frame& frame, int row) {
+  const int rows = std::min((row + 1) * kBlockPx, view.camera.height - view.y);
+  const size_t last = static_cast<size_t>(std::min(kTilePx, view.camera.width - view.x)) - 1;
+  for (int y = row * kBlockPx; y < rows; ++y) {
+    const size_t first = RowOf(view, y);
+    for (const size_t pixel : {first, first + last / 2, first + last}) {
+      hwy::Prefetch(frame.depth.data() + pixel);
+      hwy::Prefetch(frame.id.data() + pixel);
+    }
   }
 }
 
@@ -216,7 +239,10 @@ HWY_INLINE void StoreBlocks(const T* blocks, const TileView& view, int row, T* f
 template <class Triangles>
 inline void StoreTile(const TileView& view, const Triangles& triangles, TileState& state, Frame& frame) {
   const bool whole = view.x + kTilePx <= view.camera.width;
+  FetchRow(view, frame, 0);
+  FetchRow(view, frame, 1);
   for (int row = 0; row < kTileBlocks; ++row) {
+    if (row + 2 < kTileBlocks) FetchRow(view, frame, row + 2);
     SettleRow(view, triangles, state, row);
     const int end = (row + 1) * kBlockPx;
     if (HWY_LIKELY(whole && view.y + end <= view.camera.height)) {
