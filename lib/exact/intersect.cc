@@ -52,8 +52,52 @@ double midpoint_above(float f) {
 
 double midpoint_below(float f) { return midpoint_above(std::nextafter(f, 0.0f)); }
 
+// RN32 of a ratio >= 0 of which `quotient` is within 2^-45 of itself; side(midpoint) is the sign of the ratio
+// minus a midpoint of two floats.
+template <class Side>
+float round_ratio(double quotient, const Side& side_of) {
+  // `quotient` rounds to the right float unless a midpoint lies between it and the ratio; then it is the
+  // midpoint on its own side of the float.
+  const float magnitude = round_to_float(quotient);
+  const bool above = quotient >= double{magnitude};
+  const double midpoint = above ? midpoint_above(magnitude) : midpoint_below(magnitude);
+  if (!(std::fabs(quotient - midpoint) <= 0x1p-45 * midpoint)) return magnitude;
+  const int side = side_of(midpoint);
+  const float below = above ? magnitude : std::nextafter(magnitude, 0.0f);
+  const float next = std::nextafter(below, std::numeric_limits<float>::infinity());
+  const bool below_is_even = (std::bit_cast<std::uint32_t>(below) & 1u) == 0;
+  return side < 0 || (side == 0 && below_is_even) ? below : next;
+}
+
+// The depth in a plane x_axis = c that the triangle lies in for certain, N being zero but for that component:
+// (c - o) / d there. False where that cannot be told in double.
+//
+// Such planes are common and their ties are too: seen along their axis, a whole plane has one t, which with
+// c and o floats is a midpoint of floats often. c - o is asked to be exact, and a midpoint of 25 bits times a
+// float is.
+bool axis_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& tri, int axis,
+                const DoubleStage& stage, float& t) {
+  if (tri.v0[axis] != tri.v1[axis] || tri.v0[axis] != tri.v2[axis]) return false;
+  const double normal[3] = {stage.n.x, stage.n.y, stage.n.z};
+  if (!(std::fabs(normal[axis]) > stage.n_error)) return false;
+  const double plane = tri.v0[axis], from = origin[axis], along = direction[axis];
+  const double num = plane - from;
+  if (along == 0.0 || num == 0.0 || num + from != plane || plane - num != from) return false;
+  const double den_size = std::fabs(along), num_size = std::fabs(num);
+  const float magnitude = round_ratio(num_size / den_size, [&](double midpoint) {
+    const double at = midpoint * den_size;
+    return (num_size > at) - (num_size < at);
+  });
+  t = (num < 0.0) == (along < 0.0) ? magnitude : -magnitude;
+  return true;
+}
+
 // RN32(num / den), false for a zero denominator.
-bool exact_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& tri, float& t) {
+bool exact_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& tri,
+                 const DoubleStage& stage, float& t) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis_depth(origin, direction, tri, axis, stage, t)) return true;
+  }
   const ExactNormal n = cross_about(tri.v1, tri.v2, tri.v0);
   Expansion<36> den;
   add_dot(den, n, direction, 1.0);
@@ -65,19 +109,10 @@ bool exact_depth(const glm::vec3& origin, const glm::vec3& direction, const Tria
     t = 0.0f;
     return true;
   }
-  // The estimates are good to a few 2^-52, so `quotient` rounds to the right float unless a midpoint
-  // lies between it and the true ratio; then it is the midpoint on its own side of the float.
-  const double quotient = std::fabs(num.estimate() / den.estimate());
-  float magnitude = round_to_float(quotient);
-  const bool above = quotient >= double{magnitude};
-  const double midpoint = above ? midpoint_above(magnitude) : midpoint_below(magnitude);
-  if (std::fabs(quotient - midpoint) <= 0x1p-45 * midpoint) {
-    const int side = compare_with_midpoint(num, den, midpoint);
-    const float below = above ? magnitude : std::nextafter(magnitude, 0.0f);
-    const float next = std::nextafter(below, std::numeric_limits<float>::infinity());
-    const bool below_is_even = (std::bit_cast<std::uint32_t>(below) & 1u) == 0;
-    magnitude = side < 0 || (side == 0 && below_is_even) ? below : next;
-  }
+  // The estimates are good to a few 2^-52.
+  const float magnitude = round_ratio(std::fabs(num.estimate() / den.estimate()), [&](double midpoint) {
+    return compare_with_midpoint(num, den, midpoint);
+  });
   t = num.sign() == den.sign() ? magnitude : -magnitude;
   return true;
 }
@@ -95,13 +130,13 @@ bool line_hit(const glm::vec3& origin, const glm::vec3& direction, const Triangl
   if (stage.certainly_missed()) return false;
   if (!stage.certainly_covered() && !exactly_covered(origin, direction, triangle)) return false;
   if (stage.certain_depth(t)) return true;
-  return exact_depth(origin, direction, triangle, t) && std::isfinite(t);
+  return exact_depth(origin, direction, triangle, stage, t) && std::isfinite(t);
 }
 
 float line_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& triangle) {
   const DoubleStage stage(origin, direction, triangle);
   float t = std::numeric_limits<float>::infinity();
-  if (!stage.certain_depth(t)) exact_depth(origin, direction, triangle, t);
+  if (!stage.certain_depth(t)) exact_depth(origin, direction, triangle, stage, t);
   return t;
 }
 
@@ -114,7 +149,7 @@ bool ray_hit(const Ray& ray, const Triangle& triangle, bool covered, float limit
   if (!covered && !stage.certainly_covered() && !exactly_covered(ray.origin, ray.direction, triangle))
     return false;
   if (stage.certain_depth(t)) return true;
-  return exact_depth(ray.origin, ray.direction, triangle, t) && std::isfinite(t);
+  return exact_depth(ray.origin, ray.direction, triangle, stage, t) && std::isfinite(t);
 }
 
 bool ray_meets(const Ray& ray, const Triangle& triangle, bool covered) {
@@ -129,7 +164,7 @@ bool ray_meets(const Ray& ray, const Triangle& triangle, bool covered) {
     return false;
   if (stage.certainly_above(double{depth_limit(tmin)}) && stage.certainly_below(tmax)) return true;
   float t = 0.0f;
-  if (!stage.certain_depth(t) && !exact_depth(ray.origin, ray.direction, triangle, t)) return false;
+  if (!stage.certain_depth(t) && !exact_depth(ray.origin, ray.direction, triangle, stage, t)) return false;
   return std::isfinite(t) && depth_counts(ray, t);
 }
 
