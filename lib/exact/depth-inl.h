@@ -80,17 +80,23 @@ HWY_INLINE void TriangleQuotients(D d, const OfRay& ray, const Corner& corner, V
   PlaneQuotients(d, ray(3), ray(4), ray(5), nx, ny, nz, t_num, t_error, den_factor, quotient, slack);
 }
 
-// RN32(t) of the same, where that is certain, finite and above 0. Rounding is monotonic: where both ends of
-// the interval round to the same float, so does everything between. NaN compares as not equal.
+// Whether an interval whose ends round to these floats gives RN32(t) for certain, finite and above 0.
+// Rounding is monotonic: where both ends round to the same float, so does everything between. NaN compares as
+// not equal.
+template <class DF, class VF = hn::Vec<DF>>
+HWY_INLINE hn::Mask<DF> CertainDepths(DF df, VF least, VF greatest) {
+  const auto in_range = hn::And(hn::Gt(least, hn::Zero(df)),
+                                hn::Lt(least, hn::Set(df, std::numeric_limits<float>::infinity())));
+  return hn::And(hn::Eq(least, greatest), in_range);
+}
+
+// RN32(t) of TriangleQuotients' interval, where that is certain.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void RoundQuotients(D d, V quotient, V slack, hn::Vec<hn::Rebind<float, D>>& t,
                                hn::Mask<hn::Rebind<float, D>>& certain) {
   const hn::Rebind<float, decltype(d)> df;
   t = RoundToFloat(df, hn::Sub(quotient, slack));
-  const auto other = RoundToFloat(df, hn::Add(quotient, slack));
-  const auto in_range =
-      hn::And(hn::Gt(t, hn::Zero(df)), hn::Lt(t, hn::Set(df, std::numeric_limits<float>::infinity())));
-  certain = hn::And(hn::Eq(t, other), in_range);
+  certain = CertainDepths(df, t, RoundToFloat(df, hn::Add(quotient, slack)));
 }
 
 // For many rays of one triangle whose |d|_1 is at most `greatest`, the error of the quotient is at most
@@ -103,16 +109,18 @@ HWY_INLINE void PlaneBounds(D d, V t_num, V t_error, V den_factor, double greate
   b = hn::Mul(hn::Mul(den_factor, hn::Set(d, greatest)), inverse);
 }
 
-// RN32(t) as RoundQuotients has it, with those bounds. Where den's error is not small beside den, b |t| is
-// not small either, and the ends of the interval round to different floats; where a quotient is below 0, so
-// is t.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void PlaneDepths(D d, V dx, V dy, V dz, V nx, V ny, V nz, V t_num, V a, V b,
-                            hn::Vec<hn::Rebind<float, D>>& t, hn::Mask<hn::Rebind<float, D>>& certain) {
+// RN32 of the ends of an interval that t lies in, with those bounds. Where den's error is not small beside
+// den, b |t| is not small either, and the ends round to different floats; where a quotient is below 0, so is
+// t.
+template <class D, class V = hn::Vec<D>, class VF = hn::Vec<hn::Rebind<float, D>>>
+HWY_INLINE void PlaneEnds(D d, V dx, V dy, V dz, V nx, V ny, V nz, V t_num, V a, V b, VF& least,
+                          VF& greatest) {
+  const hn::Rebind<float, decltype(d)> df;
   const V den = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
   const V quotient = hn::Div(t_num, den);
   const V slack = hn::Mul(quotient, hn::MulAdd(b, quotient, a));
-  RoundQuotients(d, quotient, slack, t, certain);
+  least = RoundToFloat(df, hn::Sub(quotient, slack));
+  greatest = RoundToFloat(df, hn::Add(quotient, slack));
 }
 
 template <class D, class OfRay, class Corner>

@@ -30,23 +30,26 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
                          std::uint32_t triangle, std::uint32_t pixels) {
   LearnBlock(view, triangles, state, block, pixels);
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
-  HWY_ALIGN float t[kBlockPixels];
-  const std::uint32_t certain = BlockDepthsOf(BlockRays(state, block), state.drawn, triangle, pixels, t);
+  const BlockRays rays(state, block);
   const hn::CappedTag<float, 16> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   const auto id = hn::Set(du, state.drawn.id[triangle]);
+  std::uint32_t open = pixels;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = first + lane;
-    const auto depth = hn::Load(d, t + lane), known = hn::Load(d, state.t + offset);
+    auto certain = hn::FirstN(d, 0);
+    const auto depth = DepthsOf(d, rays, state.drawn, triangle, lane, certain);
+    const auto known = hn::Load(d, state.t + offset);
     const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(du, state.id + offset)));
     const auto before = hn::Or(hn::Lt(depth, known), hn::And(hn::Eq(depth, known), lower_id));
-    const auto won = hn::And(before, MaskOfBits(d, certain >> lane));
+    const auto won = hn::And(hn::And(before, certain), MaskOfBits(d, pixels >> lane));
     const auto won_ids = hn::RebindMask(du, won);
     hn::BlendedStore(depth, won, d, state.t + offset);
     hn::BlendedStore(id, won_ids, du, state.id + offset);
     hn::BlendedStore(hn::Set(du, triangle), won_ids, du, state.winner + offset);
+    open &= ~(MaskBits(d, certain) << lane);
   }
-  for (std::uint32_t open = pixels & ~certain; open != 0; open &= open - 1) {
+  for (; open != 0; open &= open - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
     decide_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, triangle));
   }

@@ -51,31 +51,62 @@ struct BlockRays {
   }
 };
 
-// The depths that a block's pixels see, `plane(d, k, lane)` being DrawnTriangles' planes of those from `lane`
-// on. Where a bit of `wanted` is set it is stored to `t`; returns those of them that are certain.
+// RN32 of the ends of the intervals of t (exact/depth-inl.h) of a block's pixels from `lane` on;
+// `plane(d, k, lane)` gives DrawnTriangles' planes of their triangles.
+template <class DF, class Plane, class VF = hn::Vec<DF>>
+HWY_INLINE void DepthEnds(DF df, const BlockRays& rays, const Plane& plane, size_t lane, VF& least,
+                          VF& greatest) {
+  const hn::Rebind<double, DF> d;
+  const auto ray = [&](int axis) HWY_ATTR { return hn::Load(d, rays.direction[axis] + lane); };
+  const auto of = [&](int k) HWY_ATTR { return plane(d, k, lane); };
+  PlaneEnds(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), least, greatest);
+}
+
+// The depths that a block's pixels see. Where a bit of `wanted` is set it is stored to `t`; returns those of
+// them that are certain.
 template <class Plane>
 HWY_INLINE std::uint32_t BlockDepths(const BlockRays& rays, const Plane& plane, std::uint32_t wanted,
                                      float* t) {
-  const hn::CappedTag<double, 8> d;
-  const hn::Rebind<float, decltype(d)> df;
+  const hn::Rebind<float, hn::CappedTag<double, 8>> d;
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const auto ray = [&](int axis) HWY_ATTR { return hn::Load(d, rays.direction[axis] + lane); };
-    const auto of = [&](int k) HWY_ATTR { return plane(d, k, lane); };
-    auto depth = hn::Zero(df);
-    auto certain = hn::FirstN(df, 0);
-    PlaneDepths(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), depth, certain);
-    hn::BlendedStore(depth, MaskOfBits(df, wanted >> lane), df, t + lane);
-    bits |= MaskBits(df, certain) << lane;
+    auto least = hn::Zero(d), greatest = hn::Zero(d);
+    DepthEnds(d, rays, plane, lane, least, greatest);
+    hn::BlendedStore(least, MaskOfBits(d, wanted >> lane), d, t + lane);
+    bits |= MaskBits(d, CertainDepths(d, least, greatest)) << lane;
   }
   return bits & wanted;
+}
+
+// DrawnTriangles' planes of one triangle, for DepthEnds().
+HWY_INLINE auto PlanesOf(const DrawnTriangles& drawn, std::uint32_t place) {
+  return [&drawn, place](auto d, int k, size_t) HWY_ATTR { return hn::Set(d, drawn.plane[k][place]); };
 }
 
 // Of one triangle.
 HWY_INLINE std::uint32_t BlockDepthsOf(const BlockRays& rays, const DrawnTriangles& drawn,
                                        std::uint32_t place, std::uint32_t wanted, float* t) {
-  return BlockDepths(
-      rays, [&](auto d, int k, size_t) HWY_ATTR { return hn::Set(d, drawn.plane[k][place]); }, wanted, t);
+  return BlockDepths(rays, PlanesOf(drawn, place), wanted, t);
+}
+
+// One triangle's depths of as many of a block's pixels as a whole vector of floats has, and where they are
+// certain.
+template <class DF, class VF = hn::Vec<DF>>
+HWY_INLINE VF DepthsOf(DF df, const BlockRays& rays, const DrawnTriangles& drawn, std::uint32_t place,
+                       size_t lane, hn::Mask<DF>& certain) {
+#if HWY_TARGET == HWY_SCALAR
+  auto least = hn::Zero(df), greatest = hn::Zero(df);
+  DepthEnds(df, rays, PlanesOf(drawn, place), lane, least, greatest);
+#else
+  const hn::Half<DF> half;
+  auto least0 = hn::Zero(half), greatest0 = hn::Zero(half), least1 = hn::Zero(half),
+       greatest1 = hn::Zero(half);
+  DepthEnds(half, rays, PlanesOf(drawn, place), lane, least0, greatest0);
+  DepthEnds(half, rays, PlanesOf(drawn, place), lane + hn::Lanes(half), least1, greatest1);
+  const auto least = hn::Combine(df, least1, least0), greatest = hn::Combine(df, greatest1, greatest0);
+#endif
+  certain = CertainDepths(df, least, greatest);
+  return least;
 }
 
 // Of each pixel's own triangle, whose places are given.
