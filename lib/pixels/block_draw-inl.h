@@ -42,18 +42,25 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
     const auto known = hn::Load(d, state.t + offset);
     const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(du, state.id + offset)));
     const auto before = hn::Or(hn::Lt(depth, known), hn::And(hn::Eq(depth, known), lower_id));
-    const auto won = hn::And(hn::And(before, certain), MaskOfBits(d, pixels >> lane));
+    const auto asked = MaskOfBits(d, pixels >> lane);
+    const auto won = hn::And(hn::And(before, certain), asked);
     const auto won_ids = hn::RebindMask(du, won);
     hn::BlendedStore(depth, won, d, state.t + offset);
     hn::BlendedStore(id, won_ids, du, state.id + offset);
     hn::BlendedStore(hn::Set(du, triangle), won_ids, du, state.winner + offset);
+    auto low = hn::Zero(d), high = hn::Zero(d);
+    BoundsOf(d, hn::IfThenElse(won, depth, known), low, high);
+    hn::BlendedStore(low, asked, d, state.inverse_low + offset);
+    hn::BlendedStore(high, asked, d, state.inverse_high + offset);
     open &= ~(MaskBits(d, certain) << lane);
   }
+  if (HWY_LIKELY(open == 0)) return;
+  const std::uint32_t decided = open;
   for (; open != 0; open &= open - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
     decide_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, triangle));
   }
-  SetBounds(state, block, pixels);
+  SetBounds(state, block, decided);
 }
 
 // Decides pixels of a block that the triangle may or may not cover.
