@@ -90,20 +90,18 @@ std::size_t Bins::fill(MeshView mesh, std::size_t first, std::size_t last, int t
     for (const ScreenTriangle& triangle : to.wide) add_wide(triangle, slot);
     for (SquareLists& lists : slot.wide) lists.sort();
     // A square's list is read by all of its tiles, so it pays to order it well.
-    for (std::size_t g = 1; g < kGrids; ++g) slot.wide[g].sort_by_depth();
+    for (std::size_t g = 1; g < kGrids; ++g) slot.wide[g].sort_by_depth(grids_[g]);
   });
   return std::min(first + std::min(next.load(), chunks) * kChunk, last);
 }
 
 void Bins::collect(std::size_t tile, TileContents& to) const {
-  const int column = static_cast<int>(tile % static_cast<std::size_t>(tiles().columns));
-  const int row = static_cast<int>(tile / static_cast<std::size_t>(tiles().columns));
+  const int x = static_cast<int>(tile % static_cast<std::size_t>(tiles().columns)) * kTilePx;
+  const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles().columns)) * kTilePx;
   for (const Slot& slot : slots_) {
     for (std::size_t g = kGrids - 1; g > 0; --g) {
-      const int growth = grids_[g].side_px / kTilePx;
-      const int square = row / growth * grids_[g].columns + column / growth;
-      const std::span<const WideEntry> list = slot.wide[g].list(static_cast<std::size_t>(square));
-      if (!list.empty()) to.sorted.push_back(list);
+      const SortedList list = slot.wide[g].sorted_list(grids_[g], x, y);
+      if (!list.entries.empty()) to.sorted.push_back(list);
     }
   }
   for (const Slot& slot : slots_) order_by_depth(slot.wide[0].list(tile), to.wide);

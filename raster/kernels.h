@@ -25,9 +25,9 @@ struct BinnedTriangles {
 
 /// What a tile may see, in the order in which it is drawn.
 struct TileContents {
-  std::vector<std::span<const WideEntry>> sorted;  ///< each from front to back
-  std::vector<WideEntry> wide;                     ///< roughly so
-  std::vector<EntryRun> runs;                      ///< from front to back
+  std::vector<SortedList> sorted;
+  std::vector<WideEntry> wide;  ///< roughly from front to back
+  std::vector<EntryRun> runs;   ///< from front to back
 
   bool empty() const { return sorted.empty() && wide.empty() && runs.empty(); }
 };

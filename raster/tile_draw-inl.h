@@ -23,65 +23,12 @@
 #include "pixels/tile_planes-inl.h"
 #include "raster/kernels.h"
 #include "raster/tile_counts.h"
+#include "raster/wide_draw-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Adds a triangle to the tile's drawn ones; returns its place. There must be room.
-HWY_INLINE std::uint32_t AddWide(const MeshTriangles& mesh, const ScreenTriangle& triangle,
-                                 TileState& state) {
-  DrawnTriangles& to = state.drawn;
-  const size_t place = to.count++;
-  for (int k = 0; k < 6; ++k) to.plane[k][place] = triangle.plane[k];
-  to.index[place] = triangle.index;
-  to.id[place] = mesh.id(triangle.index);
-  return static_cast<std::uint32_t>(place);
-}
-
-template <class State, class Counts>
-HWY_INLINE void DrawWide(const TileView& view, const MeshTriangles& mesh, const ScreenTriangle& triangle,
-                         State& state, Counts& counts) {
-  if (triangle.x0 >= view.x + kTilePx || triangle.x1 < view.x || triangle.y0 >= view.y + kTilePx ||
-      triangle.y1 < view.y)
-    return;
-  if (HWY_LIKELY(!triangle.side_open) &&
-      OutsideTile(triangle, view.x, view.y, std::max(state.tile_low, 0.0f)))
-    return;
-  TileTriangle placed;
-  PlaceTriangle(triangle, view.x, view.y, placed);
-  MakeRoom(view, mesh, state, 1);
-  placed.place = AddWide(mesh, triangle, state);
-  DrawBlocks(view, mesh, placed, triangle.side_open, state, counts);
-  if (HWY_LIKELY(!triangle.side_open)) return;
-  TurnEdges(placed);
-  DrawBlocks(view, mesh, placed, true, state, counts);
-}
-
-// Draws the wide triangles of a list. Of a list that is `sorted` from front to back, what follows one that is
-// hidden is hidden too.
-template <class State, class Counts>
-HWY_INLINE void DrawWideList(const TileJob& job, const MeshTriangles& mesh, std::span<const WideEntry> list,
-                             bool sorted, State& state, Counts& counts) {
-  constexpr size_t kAhead = 8;
-  const auto prefetch = [&](size_t i) HWY_ATTR {
-    const auto* const next = reinterpret_cast<const char*>(list[i].triangle);
-    for (size_t offset = 0; offset < sizeof(ScreenTriangle); offset += 64) hwy::Prefetch(next + offset);
-  };
-  for (size_t i = 0; i < std::min(kAhead, list.size()); ++i) prefetch(i);
-  for (size_t i = 0; i < list.size(); ++i) {
-    if (i + kAhead < list.size()) prefetch(i + kAhead);
-    if (i % 8 == 0) UpdateLows(state);
-    const bool hidden = list[i].nearest < state.tile_low;  // in all of the tile
-    counts.tile(hidden);
-    if (hidden && sorted) {
-      for (++i; i < list.size(); ++i) counts.tile(true);
-      return;
-    }
-    if (!hidden) DrawWide(job.view, mesh, *list[i].triangle, state, counts);
-  }
-}
 
 // Whether all that the tile may see of the triangle is hidden.
 HWY_INLINE bool Hidden(const TileEntry& entry, const TileState& state) {
@@ -167,9 +114,8 @@ HWY_INLINE void DrawLists(const TileJob& job, const MeshTriangles& mesh, State& 
 
 template <class State, class Counts>
 HWY_INLINE void DrawContents(const TileJob& job, const MeshTriangles& mesh, State& state, Counts& counts) {
-  for (const std::span<const WideEntry> list : job.contents.sorted)
-    DrawWideList(job, mesh, list, true, state, counts);
-  DrawWideList(job, mesh, job.contents.wide, false, state, counts);
+  for (const SortedList& list : job.contents.sorted) DrawSorted(job, mesh, list, state, counts);
+  DrawWideList(job, mesh, job.contents.wide, state, counts);
   UpdateLows(state);
   DrawLists(job, mesh, state, counts);
 }
