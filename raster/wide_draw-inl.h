@@ -31,7 +31,8 @@ HWY_INLINE std::uint32_t AddWide(const MeshTriangles& mesh, const ScreenTriangle
                                  TileState& state) {
   DrawnTriangles& to = state.drawn;
   const size_t place = to.count++;
-  for (int k = 0; k < 6; ++k) to.plane[k][place] = triangle.plane[k];
+  for (int k = 0; k < 4; ++k) to.normal[place][k] = triangle.plane[k];
+  for (int k = 0; k < 2; ++k) to.bounds[place][k] = triangle.plane[4 + k];
   to.index[place] = triangle.index;
   to.id[place] = mesh.id(triangle.index);
   return static_cast<std::uint32_t>(place);

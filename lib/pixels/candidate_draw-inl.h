@@ -47,7 +47,9 @@ HWY_INLINE std::uint32_t AddDrawn(const TileView& view, const Triangles& triangl
   MakeRoom(view, triangles, state, hn::Lanes(d));
   DrawnTriangles& to = state.drawn;
   const size_t place = to.count;
-  for (size_t k = 0; k < 6; ++k) hn::StoreU(hn::Load(d, lanes.plane[k]), d, to.plane[k] + place);
+  const auto plane = [&](int k) HWY_ATTR { return hn::Load(d, lanes.plane[k]); };
+  hn::StoreInterleaved4(plane(0), plane(1), plane(2), plane(3), d, to.normal[place]);
+  hn::StoreInterleaved2(plane(4), plane(5), d, to.bounds[place]);
   for (size_t i = 0; i < count; ++i) {
     to.index[place + i] = from.index[first + i];
     to.id[place + i] = triangles.id(from.index[first + i]);

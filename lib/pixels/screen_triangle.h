@@ -16,7 +16,7 @@ namespace plumb::detail {
 /// 1/t; its error is up to kDepthRelative |1/t| more.
 struct alignas(16) ScreenTriangle {
   double a[4], b[4], c[4];
-  double plane[6];  ///< DrawnTriangles' (pixels/tile_state.h)
+  double plane[6];  ///< DrawnTriangles' normal and bounds (pixels/tile_state.h)
   float error[4];
   std::int32_t x0, y0, x1, y1;  ///< Pixels that may see it, both ends included.
   std::uint32_t index;          ///< In the mesh.

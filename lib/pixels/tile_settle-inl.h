@@ -51,42 +51,102 @@ struct BlockRays {
   }
 };
 
-// RN32 of the ends of the intervals of t (exact/depth-inl.h) of a block's pixels from `lane` on;
-// `plane(d, k, lane)` gives DrawnTriangles' planes of their triangles.
-template <class DF, class Plane, class VF = hn::Vec<DF>>
-HWY_INLINE void DepthEnds(DF df, const BlockRays& rays, const Plane& plane, size_t lane, VF& least,
-                          VF& greatest) {
-  const hn::Rebind<double, DF> d;
-  const auto ray = [&](int axis) HWY_ATTR { return hn::Load(d, rays.direction[axis] + lane); };
-  const auto of = [&](int k) HWY_ATTR { return plane(d, k, lane); };
-  PlaneEnds(d, ray(0), ray(1), ray(2), of(0), of(1), of(2), of(3), of(4), of(5), least, greatest);
+// What gives the depths that a vector of pixels sees: N, T and PlaneBounds' of each one's triangle.
+template <class V>
+struct DepthPlanes {
+  V nx, ny, nz, t_num, a, b;
+};
+
+// All of one triangle.
+template <class D>
+HWY_INLINE DepthPlanes<hn::Vec<D>> PlanesOf(D d, const DrawnTriangles& drawn, std::uint32_t place) {
+  const double* const n = drawn.normal[place];
+  const double* const bounds = drawn.bounds[place];
+  return {hn::Set(d, n[0]), hn::Set(d, n[1]),      hn::Set(d, n[2]),
+          hn::Set(d, n[3]), hn::Set(d, bounds[0]), hn::Set(d, bounds[1])};
 }
 
-// The depths that a block's pixels see. Where a bit of `wanted` is set it is stored to `t`; returns those of
-// them that are certain.
-template <class Plane>
-HWY_INLINE std::uint32_t BlockDepths(const BlockRays& rays, const Plane& plane, std::uint32_t wanted,
+// As many pairs of doubles as make a vector, of the places that are given.
+template <class D>
+HWY_INLINE hn::Vec<D> LoadPairs(D d, const double* pairs, size_t stride, const std::uint32_t* place) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(d) > 2) {
+    const hn::Half<D> half;
+    return hn::Combine(d, LoadPairs(half, pairs, stride, place + hn::Lanes(half) / 2),
+                       LoadPairs(half, pairs, stride, place));
+  }
+#endif
+  return hn::LoadU(d, pairs + stride * place[0]);
+}
+
+// The two parts of a vector's worth of pairs. That is faster than gathering them.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void SplitPairs(D d, const double* pairs, size_t stride, const std::uint32_t* place, V& first,
+                           V& second) {
+#if HWY_TARGET == HWY_SCALAR
+  first = hn::Set(d, pairs[stride * place[0]]);
+  second = hn::Set(d, pairs[stride * place[0] + 1]);
+#else
+  const V low = LoadPairs(d, pairs, stride, place);
+  const V high = LoadPairs(d, pairs, stride, place + hn::Lanes(d) / 2);
+  if constexpr (hn::MaxLanes(d) == 2) {
+    first = hn::InterleaveLower(d, low, high);
+    second = hn::InterleaveUpper(d, low, high);
+  } else {
+    first = hn::ConcatEven(d, high, low);
+    second = hn::ConcatOdd(d, high, low);
+  }
+#endif
+}
+
+// Each pixel's own triangle, whose place is given.
+template <class D>
+HWY_INLINE DepthPlanes<hn::Vec<D>> PlanesOfEach(D d, const DrawnTriangles& drawn,
+                                                const std::uint32_t* place) {
+  auto nx = hn::Zero(d), ny = nx, nz = nx, t_num = nx, a = nx, b = nx;
+  SplitPairs(d, drawn.normal[0], 4, place, nx, ny);
+  SplitPairs(d, drawn.normal[0] + 2, 4, place, nz, t_num);
+  SplitPairs(d, drawn.bounds[0], 2, place, a, b);
+  return {nx, ny, nz, t_num, a, b};
+}
+
+// RN32 of the ends of the intervals of t (exact/depth-inl.h) of a block's pixels from `lane` on.
+template <class D, class VF = hn::Vec<hn::Rebind<float, D>>>
+HWY_INLINE void DepthEnds(D d, const BlockRays& rays, const DepthPlanes<hn::Vec<D>>& of, size_t lane,
+                          VF& least, VF& greatest) {
+  const auto ray = [&](int axis) HWY_ATTR { return hn::Load(d, rays.direction[axis] + lane); };
+  PlaneEnds(d, ray(0), ray(1), ray(2), of.nx, of.ny, of.nz, of.t_num, of.a, of.b, least, greatest);
+}
+
+// The depths that a block's pixels see, `planes(d, lane)` being DepthPlanes. Where a bit of `wanted` is set
+// it is stored to `t`; returns those of them that are certain.
+template <class Planes>
+HWY_INLINE std::uint32_t BlockDepths(const BlockRays& rays, const Planes& planes, std::uint32_t wanted,
                                      float* t) {
-  const hn::Rebind<float, hn::CappedTag<double, 8>> d;
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> df;
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    auto least = hn::Zero(d), greatest = hn::Zero(d);
-    DepthEnds(d, rays, plane, lane, least, greatest);
-    hn::BlendedStore(least, MaskOfBits(d, wanted >> lane), d, t + lane);
-    bits |= MaskBits(d, CertainDepths(d, least, greatest)) << lane;
+    auto least = hn::Zero(df), greatest = hn::Zero(df);
+    DepthEnds(d, rays, planes(d, lane), lane, least, greatest);
+    hn::BlendedStore(least, MaskOfBits(df, wanted >> lane), df, t + lane);
+    bits |= MaskBits(df, CertainDepths(df, least, greatest)) << lane;
   }
   return bits & wanted;
-}
-
-// DrawnTriangles' planes of one triangle, for DepthEnds().
-HWY_INLINE auto PlanesOf(const DrawnTriangles& drawn, std::uint32_t place) {
-  return [&drawn, place](auto d, int k, size_t) HWY_ATTR { return hn::Set(d, drawn.plane[k][place]); };
 }
 
 // Of one triangle.
 HWY_INLINE std::uint32_t BlockDepthsOf(const BlockRays& rays, const DrawnTriangles& drawn,
                                        std::uint32_t place, std::uint32_t wanted, float* t) {
-  return BlockDepths(rays, PlanesOf(drawn, place), wanted, t);
+  return BlockDepths(
+      rays, [&](auto d, size_t) HWY_ATTR { return PlanesOf(d, drawn, place); }, wanted, t);
+}
+
+// Of each pixel's own triangle, whose places are given.
+HWY_INLINE std::uint32_t BlockDepthsOfEach(const BlockRays& rays, const DrawnTriangles& drawn,
+                                           const std::uint32_t* place, std::uint32_t wanted, float* t) {
+  return BlockDepths(
+      rays, [&](auto d, size_t lane) HWY_ATTR { return PlanesOfEach(d, drawn, place + lane); }, wanted, t);
 }
 
 // One triangle's depths of as many of a block's pixels as a whole vector of floats has, and where they are
@@ -95,43 +155,31 @@ template <class DF, class VF = hn::Vec<DF>>
 HWY_INLINE VF DepthsOf(DF df, const BlockRays& rays, const DrawnTriangles& drawn, std::uint32_t place,
                        size_t lane, hn::Mask<DF>& certain) {
 #if HWY_TARGET == HWY_SCALAR
+  const hn::Rebind<double, DF> d;
   auto least = hn::Zero(df), greatest = hn::Zero(df);
-  DepthEnds(df, rays, PlanesOf(drawn, place), lane, least, greatest);
+  DepthEnds(d, rays, PlanesOf(d, drawn, place), lane, least, greatest);
 #else
   const hn::Half<DF> half;
-  auto least0 = hn::Zero(half), greatest0 = hn::Zero(half), least1 = hn::Zero(half),
-       greatest1 = hn::Zero(half);
-  DepthEnds(half, rays, PlanesOf(drawn, place), lane, least0, greatest0);
-  DepthEnds(half, rays, PlanesOf(drawn, place), lane + hn::Lanes(half), least1, greatest1);
+  const hn::Rebind<double, decltype(half)> d;
+  const auto planes = PlanesOf(d, drawn, place);
+  auto least0 = hn::Zero(half), greatest0 = least0, least1 = least0, greatest1 = least0;
+  DepthEnds(d, rays, planes, lane, least0, greatest0);
+  DepthEnds(d, rays, planes, lane + hn::Lanes(half), least1, greatest1);
   const auto least = hn::Combine(df, least1, least0), greatest = hn::Combine(df, greatest1, greatest0);
 #endif
   certain = CertainDepths(df, least, greatest);
   return least;
 }
 
-// Of each pixel's own triangle, whose places are given.
-HWY_INLINE std::uint32_t BlockDepthsOfEach(const BlockRays& rays, const DrawnTriangles& drawn,
-                                           const std::uint32_t* place, std::uint32_t wanted, float* t) {
-  return BlockDepths(
-      rays,
-      [&](auto d, int k, size_t lane) HWY_ATTR {
-        const hn::Rebind<std::int32_t, decltype(d)> d32;
-        const hn::RebindToSigned<decltype(d)> d64;
-        const auto index = hn::Load(d32, reinterpret_cast<const std::int32_t*>(place) + lane);
-        return hn::GatherIndex(d, drawn.plane[k], hn::PromoteTo(d64, index));
-      },
-      wanted, t);
-}
-
-// Of so many triangles of a block each has its pixels' depths computed by itself; then all that are left at
-// once, each pixel with its own triangle, which takes as long as five.
-constexpr int kByThemselves = 5;
-
-// Notes the id of a block's pixels whose bit is set.
-HWY_INLINE void NoteId(TileState& state, size_t first, std::uint32_t id, std::uint32_t pixels) {
+// Those of a block's pixels, of `asked`, that the first one's winner has won; which is `place`.
+HWY_INLINE std::uint32_t PixelsOfFirst(const std::uint32_t* winner, std::uint32_t asked,
+                                       std::uint32_t& place) {
   const hn::CappedTag<std::uint32_t, 16> d;
+  place = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(asked)];
+  std::uint32_t same = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
-    hn::BlendedStore(hn::Set(d, id), MaskOfBits(d, pixels >> lane), d, state.id + first + lane);
+    same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, place))) << lane;
+  return same & asked;
 }
 
 // Computes the exact answer of those of a block's pixels whose bit is set. A depth that turns out not to be
@@ -141,32 +189,36 @@ inline void SettleBlock(const TileView& view, const Triangles& triangles, TileSt
                         std::uint32_t unknown) {
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const hn::CappedTag<std::uint32_t, 16> d;
-  const std::uint32_t* winner = state.winner + first;
+  const std::uint32_t* const winner = state.winner + first;
+  float* const t = state.t + first;
+  std::uint32_t* const id = state.id + first;
   const BlockRays rays(state, block);
-  std::uint32_t left = unknown, open = 0;
-  for (int i = 0; i < kByThemselves && left != 0; ++i) {
-    const std::uint32_t sample = winner[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
-    std::uint32_t same = 0;
-    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
-      same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, sample))) << lane;
-    same &= left;
-    open |= same & ~BlockDepthsOf(rays, state.drawn, sample, same, state.t + first);
-    NoteId(state, first, state.drawn.id[sample], same);
-    left &= ~same;
-  }
-  if (left != 0) {
+  std::uint32_t place0 = 0, place1 = 0, certain = 0;
+  const std::uint32_t pixels0 = PixelsOfFirst(winner, unknown, place0);
+  const std::uint32_t rest = unknown & ~pixels0;
+  const std::uint32_t pixels1 = rest == 0 ? 0 : PixelsOfFirst(winner, rest, place1);
+  if (rest == pixels1) {  // one triangle, or two
+    certain = BlockDepthsOf(rays, state.drawn, place0, pixels0, t);
+    if (rest != 0) certain |= BlockDepthsOf(rays, state.drawn, place1, pixels1, t);
+    const auto id0 = hn::Set(d, state.drawn.id[place0]), id1 = hn::Set(d, state.drawn.id[place1]);
+    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+      const auto both = hn::IfThenElse(MaskOfBits(d, pixels0 >> lane), id0, id1);
+      hn::BlendedStore(both, MaskOfBits(d, unknown >> lane), d, id + lane);
+    }
+  } else {
     HWY_ALIGN std::uint32_t place[kBlockPixels];
     for (size_t lane = 0; lane < kBlockPixels;
          lane += hn::Lanes(d)) {  // who is not asked is taken for the first
-      const auto asked = MaskOfBits(d, left >> lane);
+      const auto asked = MaskOfBits(d, unknown >> lane);
       hn::Store(hn::IfThenElseZero(asked, hn::Load(d, winner + lane)), d, place + lane);
     }
-    open |= left & ~BlockDepthsOfEach(rays, state.drawn, place, left, state.t + first);
-    for (std::uint32_t bits = left; bits != 0; bits &= bits - 1) {
-      const size_t pixel = first + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      state.id[pixel] = state.drawn.id[state.winner[pixel]];
+    certain = BlockDepthsOfEach(rays, state.drawn, place, unknown, t);
+    for (std::uint32_t bits = unknown; bits != 0; bits &= bits - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      id[i] = state.drawn.id[place[i]];
     }
   }
+  std::uint32_t open = unknown & ~certain;
   state.settled[block] |= static_cast<std::uint16_t>(unknown);
   for (; open != 0; open &= open - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);

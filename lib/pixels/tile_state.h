@@ -29,7 +29,8 @@ struct alignas(16) InversePlane {
 struct DrawnTriangles {
   static constexpr std::size_t kRoom = 1024;
 
-  alignas(64) double plane[6][kRoom];  ///< N, T, and exact/depth-inl.h's PlaneBounds
+  alignas(64) double normal[kRoom][4];  ///< N and T, as exact/depth-inl.h has them
+  alignas(64) double bounds[kRoom][2];  ///< PlaneBounds'
   alignas(64) std::uint32_t id[kRoom];
   InversePlane inverse[kRoom];  ///< of those that won whole blocks
   std::uint32_t index[kRoom];   ///< among the triangles that the tile is drawn from

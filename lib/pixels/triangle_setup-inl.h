@@ -31,7 +31,7 @@ struct SetupLanes {
   alignas(64) double corner[9][8];
   alignas(64) double size[3][8];  // |corner|_1
   alignas(64) double turn[8];
-  alignas(64) double plane[6][8];  // DrawnTriangles'
+  alignas(64) double plane[6][8];  // DrawnTriangles' normal and bounds
 
   alignas(64) double a[4][8], b[4][8], c[4][8];
   alignas(64) float error[4][8];
