@@ -213,9 +213,11 @@ inline void SettleBlock(const TileView& view, const Triangles& triangles, TileSt
       hn::Store(hn::IfThenElseZero(asked, hn::Load(d, winner + lane)), d, place + lane);
     }
     certain = BlockDepthsOfEach(rays, state.drawn, place, unknown, t);
-    for (std::uint32_t bits = unknown; bits != 0; bits &= bits - 1) {
-      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      id[i] = state.drawn.id[place[i]];
+    const hn::RebindToSigned<decltype(d)> di;
+    for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+      const auto index = hn::BitCast(di, hn::Load(d, place + lane));
+      hn::BlendedStore(hn::GatherIndex(d, state.drawn.id, index), MaskOfBits(d, unknown >> lane), d,
+                       id + lane);
     }
   }
   std::uint32_t open = unknown & ~certain;
