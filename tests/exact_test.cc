@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -13,6 +15,7 @@
 #include "support/effort.h"
 #include "support/hard_rays.h"
 #include "support/oracle_adapter.h"
+#include "support/random.h"
 
 // The scalar arithmetic that everything ends in, against the oracle.
 
@@ -45,6 +48,11 @@ std::size_t for_each_pair(const Check& check) {
     }
   }
   return pairs;
+}
+
+// Whether a quotient, computed in double, lies halfway between two floats of ordinary size.
+bool is_midpoint(double quotient) {
+  return (std::bit_cast<std::uint64_t>(quotient) & 0x1fffffffu) == 0x10000000u;
 }
 
 }  // namespace
@@ -126,6 +134,43 @@ TEST_SUITE("exact") {
       if (std::isfinite(depth.expected)) CHECK(t == depth.expected);
       CHECK(detail::line_depth(origin, direction, triangle) == depth.expected);
     }
+  }
+
+  // Where t is (c - o) / d along an axis: ties are common there, at every magnitude.
+  TEST_CASE("depths in planes across an axis are the oracle's, ties among them") {
+    hard::Random random(5);
+    std::size_t certain = 0, ties = 0, infinite = 0;
+    for (int i = 0; i < hard::effort(40000); ++i) {
+      const int axis = random.between(0, 2), scale = random.between(-100, 90);
+      const auto coordinate = [&] { return std::ldexp(random.unit(), scale + random.between(-3, 3)); };
+      // Few bits often, so that quotients are short.
+      const auto rounded = [&](float f) { return random.one_in(2) ? f : std::round(f * 8.0f) / 8.0f; };
+      const float plane = coordinate();
+      detail::Triangle triangle{};
+      for (glm::vec3* v : {&triangle.v0, &triangle.v1, &triangle.v2}) {
+        *v = {coordinate(), coordinate(), coordinate()};
+        (*v)[axis] = plane;
+      }
+      // Towards a point of it, or along the axis mostly.
+      const glm::vec3 origin(coordinate(), coordinate(), coordinate());
+      glm::vec3 direction = rounded(random.unit()) * random.unit3();
+      direction[axis] = std::ldexp(rounded(random.unit()), random.one_in(8) ? random.between(-149, 100) : 0);
+      if (random.one_in(3)) direction = {axis == 0, axis == 1, axis == 2};
+      if (!detail::ray_is_valid(Ray{origin, 0.0f, direction, 1.0f})) continue;
+      const oracle::Vec3 from = witness::to_oracle(origin), along = witness::to_oracle(direction);
+      const std::optional<float> hit = oracle::line_hit(from, along, to_oracle(triangle));
+      float t = -7.0f;
+      REQUIRE(detail::line_hit(origin, direction, triangle, t) == hit.has_value());
+      if (hit) CHECK(t == *hit);
+      const std::optional<float> expected = oracle::plane_depth(from, along, to_oracle(triangle));
+      if (!expected) continue;
+      CHECK(detail::line_depth(origin, direction, triangle) == *expected);
+      const double exact = (double{plane} - double{origin[axis]}) / double{direction[axis]};
+      ++(std::isinf(*expected) ? infinite : is_midpoint(exact) ? ties : certain);
+    }
+    CHECK(certain > hard::effort(std::size_t{10000}));
+    CHECK(ties > hard::effort(std::size_t{1000}));
+    CHECK(infinite > 0);
   }
 
   TEST_CASE("rays and triangles are valid where the oracle says so") {

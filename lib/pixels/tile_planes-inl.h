@@ -45,12 +45,12 @@ static_assert(kTileBlocks == 8 && kBlockPx == 4);
 constexpr CentreOffsets kCentres;
 
 // The bound. With u = 2^-24 and M = |c| + 16 (|a| + |b|), c the plane's value at the tile's centre, a
-// pixel's value is computed from a block's and a pixel's offsets, |x' + x''|, |y' + y''| <= 15.5, as
-//     fl(fl(fl(c + b y') + a x') + b y'') + a x''
+// pixel's value is computed from its offsets from there, |x|, |y| <= 15.5, which are exact, as
+//     fl(fl(c + b y) + a x)
 // with one rounding a step where it is fused and two where not:
-//     the four sums, each below M: 4 u M     the products: 15.5 u (|a| + |b|) < u M
+//     the two sums, each below M: 2 u M     the products: 15.5 u (|a| + |b|) < u M
 //     a, b and c rounded to float: u M
-// so 6 u M. A half more covers the second order and the roundings in double (the tile's centre may
+// so 4 u M. A half more covers the second order and the roundings in double (the tile's centre may
 // lie outside the frame, beyond what ScreenTriangle::error speaks of, but not beyond 2 M). What
 // underflows is far below 2^-140, which is added.
 //
@@ -59,7 +59,7 @@ constexpr CentreOffsets kCentres;
 // more than the spacing of floats (below kGreatestInverse; above it t comes near the subnormal numbers, and
 // nothing is certain).
 constexpr double kTileU = 0x1p-24;
-HWY_ALIGN constexpr double kPlaneRelative[4] = {6.5 * kTileU, 6.5 * kTileU, 6.5 * kTileU, 7.9 * kTileU};
+HWY_ALIGN constexpr double kPlaneRelative[4] = {4.5 * kTileU, 4.5 * kTileU, 4.5 * kTileU, 5.9 * kTileU};
 constexpr float kGreatestInverse = 0x1p100f;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 HWY_ALIGN constexpr double kPlaneLimit[4] = {kNoLimit, kNoLimit, kNoLimit, double{kGreatestInverse}};

@@ -52,16 +52,69 @@ bool PlaneValues(const Projection& view, MeshView mesh, int x, int y, double scr
   }
   const int block = (y - tile_y) / kBlockPx * kTileBlocks + (x - tile_x) / kBlockPx;
   const int pixel = (y - tile_y) % kBlockPx * kBlockPx + (x - tile_x) % kBlockPx;
-  HWY_ALIGN float centre[4];
-  PlanesAt(placed[0], block, centre);
   const hn::CappedTag<float, 16> d;
   for (int i = 0; i < 4; ++i) {
     HWY_ALIGN float values[16];
-    for (size_t lane = 0; lane < 16; lane += hn::Lanes(d))
-      hn::Store(PlaneAtPixels(d, placed[0], centre, i, lane), d, values + lane);
+    for (size_t lane = 0; lane < 16; lane += hn::Lanes(d)) {
+      auto at_x = hn::Zero(d), at_y = hn::Zero(d);
+      PixelCentres(d, block, lane, at_x, at_y);
+      hn::Store(PlaneAt(d, placed[0], i, at_x, at_y), d, values + lane);
+    }
     tile[0][i] = double{values[static_cast<size_t>(pixel)]};
     tile[1][i] = double{placed[0].error[i]};
   }
+  return true;
+}
+
+// What a wide triangle's tile and block say of their pixel (x, y), all being hidden whose 1/t is below
+// `hidden_below`: whether it may be seen, by the tile, tested with the others of its square, and by the
+// block; whether the block is covered in full; and the ends of 1/t in the block. False where the triangle is
+// not drawn, its side is open, or its box leaves the pixel out.
+bool ClaimsAt(const Projection& view, MeshView mesh, int x, int y, float hidden_below, bool& tile_open,
+              bool& block_open, bool& block_full, float ends[2]) {
+  BinnedTriangles binned;
+  alignas(64) float row[9][kFetched] = {};
+  const float* corner[9];
+  for (int k = 0; k < 9; ++k) {
+    row[k][0] = mesh.positions[static_cast<size_t>(k / 3)][k % 3];
+    corner[k] = row[k];
+  }
+  ScreenBoxes boxes{};
+  const std::uint32_t seen = BoundTriangles<kFetched>(view, WholeFrame(view), corner, 1, boxes);
+  SetupCandidates candidates{};
+  AddCandidates(corner, boxes, seen, 0, candidates);
+  SetUpWide(view, candidates, binned.wide);
+  if (binned.wide.size() != 1) return false;
+  const ScreenTriangle& triangle = binned.wide[0];
+  if (triangle.side_open || x < triangle.x0 || x > triangle.x1 || y < triangle.y0 || y > triangle.y1)
+    return false;
+  const int tile_x = x / kTilePx * kTilePx, tile_y = y / kTilePx * kTilePx;
+  const SquareGrid grid(view.width, view.height, 8 * kTilePx);
+  SquareLists lists;
+  lists.add(static_cast<std::uint32_t>(grid.at(x, y)), {&triangle, triangle.nearest});
+  lists.sort();
+  lists.sort_by_depth(grid);
+  const SortedList list = lists.sorted_list(grid, tile_x, tile_y);
+  tile_open = SeenOfGroup(list.groups[0], list.x, list.y, std::max(hidden_below, 0.0f)) == 1;
+
+  TileTriangle placed[1];
+  PlaceTriangle(triangle, tile_x, tile_y, placed[0]);
+  HWY_ALIGN float grow[4];
+  Grow(placed[0], 1.5f, grow);
+  const hn::CappedTag<float, 16> d;
+  HWY_ALIGN float hidden[kTileBlocks * kTileBlocks], low[16], high[16];
+  std::fill(std::begin(hidden), std::end(hidden), hidden_below);
+  const auto block = static_cast<size_t>((y - tile_y) / kBlockPx * kTileBlocks + (x - tile_x) / kBlockPx);
+  const size_t first = block / hn::Lanes(d) * hn::Lanes(d);
+  auto open = hn::FirstN(d, 0), full = open;
+  auto least = hn::Zero(d), greatest = least;
+  TestBlocks(d, placed[0], grow, first, hidden, open, full, least, greatest);
+  hn::Store(least, d, low);
+  hn::Store(greatest, d, high);
+  block_open = (MaskBits(d, open) >> (block - first) & 1) != 0;
+  block_full = (MaskBits(d, full) >> (block - first) & 1) != 0;
+  ends[0] = low[block - first];
+  ends[1] = high[block - first];
   return true;
 }
 
@@ -88,6 +141,7 @@ namespace plumb::detail {
 namespace {
 
 HWY_EXPORT(PlaneValues);
+HWY_EXPORT(ClaimsAt);
 
 using attack::ExactValues;
 using attack::Input;
@@ -215,6 +269,44 @@ double tightest(Simd simd, std::uint64_t seed, double Shares::*which) {
   return greatest;
 }
 
+// The greatest float that is no more than the number.
+float rounded_down(const mpq_class& value) {
+  auto f = static_cast<float>(to_double(value));
+  while (mpq_class(double{f}) > value) f = std::nextafter(f, -std::numeric_limits<float>::infinity());
+  return f;
+}
+
+// Holds the claims of a triangle's tile and block against what is exact at the pixel, which it may hide
+// itself least of all. Counts what was claimed of pixels that it covers.
+void hold_claims(const Target& target, const Input& input, int claimed[3]) {
+  const Projection view(target.camera);
+  const Triangle triangle = input.triangle();
+  const ExactPlanes exact = exact_planes(target.camera, triangle, target.x, target.y);
+  if (view.exact_only || !exact.usable) return;
+  if (!(abs(exact.value[3]) < mpq_class(0x1p100))) return;
+  const TriangleMesh mesh{{triangle.v0, triangle.v1, triangle.v2}, {{0, 1, 2}}};
+  bool tile_open = false, block_open = false, block_full = false;
+  float ends[2] = {};
+  if (!PLUMB_DISPATCH(ClaimsAt, target.simd)(view, mesh, target.x, target.y, rounded_down(exact.value[3]),
+                                             tile_open, block_open, block_full, ends))
+    return;
+  const bool covered = exact.value[0] > 0 && exact.value[1] > 0 && exact.value[2] > 0 && exact.value[3] > 0;
+  if (covered) {
+    ++claimed[0];
+    CHECK(tile_open);
+    CHECK(block_open);
+  }
+  if (block_full) {
+    ++claimed[1];
+    CHECK(covered);
+  }
+  if (std::isfinite(ends[0])) {
+    ++claimed[2];
+    CHECK(mpq_class(double{ends[0]}) <= exact.value[3]);
+    CHECK(mpq_class(double{ends[1]}) >= exact.value[3]);
+  }
+}
+
 }  // namespace
 
 TEST_SUITE("attack: the rasterizer's planes") {
@@ -236,6 +328,23 @@ TEST_SUITE("attack: the rasterizer's planes") {
         CHECK(greatest <= 1.0);
         CHECK(greatest > bound.found / hard::kEffortDivisor);
       }
+    }
+  }
+
+  TEST_CASE("what tiles and blocks claim of a triangle holds at their pixels") {
+    for (const Simd simd : simd_targets()) {
+      Random random(11);
+      int claimed[3] = {};
+      for (int i = 0; i < hard::effort(6000); ++i) {
+        Target target{simd, random_camera(random), 0, 0};
+        target.x = random.between(0, target.camera.width - 1);
+        target.y = random.between(0, target.camera.height - 1);
+        const Input input = random_triangle(random, target);
+        if (std::all_of(std::begin(input.value), std::end(input.value),
+                        [](float f) { return std::isfinite(f); }))
+          hold_claims(target, input, claimed);
+      }
+      for (const int count : claimed) CHECK(count > hard::effort(200));
     }
   }
 }
