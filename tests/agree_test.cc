@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <cstddef>
@@ -83,6 +84,12 @@ void check_one_by_one(const Structure& structure, const Answered& a) {
     CHECK(structure.any(ray) == !a.hits[i].empty());
     structure.all(ray, all);
     CHECK(all == a.hits[i]);
+    for (const std::size_t room : {std::size_t{1}, std::size_t{3}, all.size() + 2}) {
+      std::vector<Hit> first(room, Hit{1.0f, 1}), expected = a.hits[i];
+      expected.resize(room);
+      CHECK(structure.first(ray, first) == std::min(room, all.size()));
+      CHECK(first == expected);
+    }
   }
 }
 

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,14 @@ class Liar final : public soak::Structure {
   void all(const Ray& ray, std::vector<Hit>& hits) const override {
     brute_.all(ray, hits);
     spoil_(ray, hits);
+  }
+  std::size_t first(const Ray& ray, std::span<Hit> hits) const override {
+    std::vector<Hit> found;
+    all(ray, found);
+    const std::size_t count = std::min(found.size(), hits.size());
+    std::copy_n(found.begin(), count, hits.begin());
+    std::fill(hits.begin() + static_cast<std::ptrdiff_t>(count), hits.end(), Hit{});
+    return count;
   }
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const override {
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest(rays[i]);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "exact/filter_ray.h"
@@ -171,6 +173,45 @@ class AllQuery : public NoCounts {
   std::vector<Hit>& hits_;
 };
 
+/// The first hits in (t, id) order, as many as there is room for.
+///
+/// They are kept sorted, and the last one's t is the limit once the room is full, so that neither the memory
+/// nor the walk depends on how much lies behind them.
+class FirstQuery : public NoCounts {
+ public:
+  static constexpr bool kBoundsDepth = false;
+  static constexpr bool kOrdered = true;
+  static constexpr bool kAnyHit = false;
+
+  /// `room` has at least one place; all are cleared.
+  FirstQuery(const Ray& ray, std::span<Hit> room) : ray_(ray), limit_(depth_limit(ray.tmax)), room_(room) {
+    std::fill(room.begin(), room.end(), Hit{});
+  }
+  float limit() const { return limit_; }
+  bool take(float t, std::uint32_t id) {
+    if (!depth_counts(ray_, t) || !hit_before(t, id, room_.back())) return false;
+    // From the back: what is offered late is mostly far.
+    std::size_t place = count_ < room_.size() ? count_ : room_.size() - 1;
+    while (place > 0 && hit_before(t, id, room_[place - 1])) --place;
+    // A triangle in several cells or leaves is offered in each, with the same t, and counts once.
+    if (place > 0 && room_[place - 1] == Hit{t, id}) return false;
+    if (count_ < room_.size()) ++count_;
+    std::move_backward(room_.begin() + static_cast<std::ptrdiff_t>(place),
+                       room_.begin() + static_cast<std::ptrdiff_t>(count_ - 1),
+                       room_.begin() + static_cast<std::ptrdiff_t>(count_));
+    room_[place] = {t, id};
+    if (count_ == room_.size()) limit_ = std::min(limit_, depth_limit(room_.back().t));
+    return false;
+  }
+  std::size_t count() const { return count_; }
+
+ private:
+  const Ray& ray_;
+  float limit_;
+  std::span<Hit> room_;
+  std::size_t count_ = 0;
+};
+
 inline void sort_hits(std::vector<Hit>& hits) {
   std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return hit_before(a.t, a.id, b); });
   // A structure of cells meets a triangle in each of them, with the same t: the hit's bits are the
@@ -185,6 +226,8 @@ struct QueryTable {
   void (*closest)(const void* structure, const Ray* rays, Hit* hits, std::size_t count);
   void (*any)(const void* structure, const Ray* rays, bool* hits, std::size_t count);
   void (*all)(const void* structure, const Ray& ray, std::vector<Hit>& hits);
+  /// The first hits, as FirstQuery has them; how many.
+  std::size_t (*first)(const void* structure, const Ray& ray, Hit* room, std::size_t size);
   void (*count_tests)(const void* structure, const Ray* rays, std::size_t count, TestCounts& counts);
 };
 
@@ -222,6 +265,11 @@ QueryTable make_query_table() {
     AllQuery query(ray, hits);
     if (ray_can_hit(ray)) Traversal::run(*static_cast<const Structure*>(structure), ray, query);
     sort_hits(hits);
+  };
+  table.first = [](const void* structure, const Ray& ray, Hit* room, std::size_t size) {
+    FirstQuery query(ray, {room, size});
+    if (ray_can_hit(ray)) Traversal::run(*static_cast<const Structure*>(structure), ray, query);
+    return query.count();
   };
   table.count_tests = [](const void* structure, const Ray* rays, std::size_t count, TestCounts& counts) {
     counts.rays += count;

@@ -43,6 +43,14 @@ void Structure::all(const Ray& ray, std::vector<Hit>& hits) const {
   with_default_fp_mode([&] { data_->queries.all(data_->structure.get(), ray, hits); });
 }
 
+std::size_t Structure::first(const Ray& ray, std::span<Hit> hits) const {
+  if (hits.empty()) return 0;
+  std::size_t count = 0;
+  with_default_fp_mode(
+      [&] { count = data_->queries.first(data_->structure.get(), ray, hits.data(), hits.size()); });
+  return count;
+}
+
 void Structure::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
   check_sizes(rays.size(), hits.size());
   with_default_fp_mode(

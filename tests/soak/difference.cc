@@ -37,6 +37,7 @@ Hit first_of(const std::vector<Hit>& hits) { return hits.empty() ? Hit{} : hits.
 std::optional<Difference> ask(std::size_t subject, const Structure& structure, std::span<const Ray> rays,
                               const std::vector<std::vector<Hit>>& expected) {
   std::vector<Hit> all;
+  std::vector<Hit> few(kFirst, Hit{1.0f, 1});  // must be replaced
   std::vector<Hit> closest(rays.size());
   const auto any = std::make_unique<bool[]>(rays.size());
   structure.closest(rays, closest);
@@ -50,6 +51,11 @@ std::optional<Difference> ask(std::size_t subject, const Structure& structure, s
       return Difference{subject, Query::Any, i, message(got, hits)};
     structure.all(rays[i], all);
     if (all != expected[i]) return Difference{subject, Query::All, i, message(all, expected[i])};
+    std::vector<Hit> some = expected[i];
+    some.resize(kFirst);
+    const std::size_t count = structure.first(rays[i], few);
+    if (few != some || count != std::min(expected[i].size(), kFirst))
+      return Difference{subject, Query::First, i, message(few, some)};
     if (closest[i] != first) return Difference{subject, Query::SpanClosest, i, message(closest[i], first)};
     if (any[i] != hits) return Difference{subject, Query::SpanAny, i, message(bool{any[i]}, hits)};
   }
@@ -77,7 +83,7 @@ std::optional<Difference> compare_rays(const cases::Instance& instance, std::spa
   for (std::size_t s = 0; s < subjects.size(); ++s) {
     if (structures[s] == nullptr) continue;
     if (auto difference = ask(s, *structures[s], instance.rays, expected)) return difference;
-    tally.ray_answers += 5 * instance.rays.size();
+    tally.ray_answers += 6 * instance.rays.size();
   }
   return std::nullopt;
 }

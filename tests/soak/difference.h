@@ -16,7 +16,10 @@
 namespace plumb::soak {
 
 /// What was asked.
-enum class Query { Closest, Any, All, SpanClosest, SpanAny, Frame };
+enum class Query { Closest, Any, All, First, SpanClosest, SpanAny, Frame };
+
+/// How many hits Query::First asks for.
+inline constexpr std::size_t kFirst = 2;
 
 /// An answer of a subject that is not the oracle's.
 struct Difference {

@@ -1,5 +1,6 @@
 #include "soak/paste.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -94,6 +95,12 @@ void write_ray_check(std::ostream& out, const Shrunk& shrunk, const std::vector<
   } else if (shrunk.difference.query == Query::Closest) {
     const Hit hit = first_of(hits);
     out << "  CHECK(structure.closest(ray) == " << Literal{hit} << ");\n";
+  } else if (shrunk.difference.query == Query::First) {
+    std::vector<Hit> first = hits;
+    first.resize(kFirst);
+    out << "  std::vector<Hit> hits(" << kFirst
+        << ");\n  CHECK(structure.first(ray, hits) == " << std::min(hits.size(), kFirst)
+        << ");\n  CHECK(hits == std::vector<Hit>" << Literal{first} << ");\n";
   } else {
     out << "  std::vector<Hit> hits;\n  structure.all(ray, hits);\n  CHECK(hits == std::vector<Hit>"
         << Literal{hits} << ");\n";

@@ -22,6 +22,7 @@ class Adapted final : public Structure {
   Hit closest(const Ray& ray) const override { return inner_.closest(ray); }
   bool any(const Ray& ray) const override { return inner_.any(ray); }
   void all(const Ray& ray, std::vector<Hit>& hits) const override { inner_.all(ray, hits); }
+  std::size_t first(const Ray& ray, std::span<Hit> hits) const override { return inner_.first(ray, hits); }
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const override { inner_.closest(rays, hits); }
   void any(std::span<const Ray> rays, std::span<bool> hits) const override { inner_.any(rays, hits); }
   void cast(const Camera& camera, Frame& frame) const override {

@@ -22,6 +22,7 @@ class Structure {
   virtual Hit closest(const Ray& ray) const = 0;
   virtual bool any(const Ray& ray) const = 0;
   virtual void all(const Ray& ray, std::vector<Hit>& hits) const = 0;
+  virtual std::size_t first(const Ray& ray, std::span<Hit> hits) const = 0;
   virtual void closest(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
   virtual void any(std::span<const Ray> rays, std::span<bool> hits) const = 0;
   virtual void cast(const Camera& camera, Frame& frame) const = 0;

@@ -34,9 +34,8 @@ struct LayeredFrame {
 };
 
 /// Finds each pixel's first surfaces by rays and overwrites the whole frame. A pixel's entries are the first
-/// of what Structure::all() lists for its ray. Rays ask for hits up to a depth that their neighbour's entries
-/// suggest, and again farther where these are too few. `options.method` is not looked at. Throws what cast()
-/// throws.
+/// of what Structure::all() lists for its ray (Structure::first()). `options.method` is not looked at. Throws
+/// what cast() throws.
 void cast_layers(const Structure& structure, const Camera& camera, LayeredFrame& frame,
                  const CastOptions& options = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,6 +30,9 @@ class Structure {
   bool any(const Ray& ray) const;
   /// Replaces the contents of `hits` by every hit that counts, sorted by (t, id).
   void all(const Ray& ray, std::vector<Hit>& hits) const;
+  /// The first hits of all(), as many as `hits` has room for, and how many these are; the rest of `hits`
+  /// becomes {+inf, kNone}. Takes no memory, and does not look behind the last of them.
+  std::size_t first(const Ray& ray, std::span<Hit> hits) const;
 
   /// The closest hit of every ray, hits[i] that of rays[i], on the calling thread. Throws plumb::Error
   /// when the sizes differ.
