@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/round.h"
+#include "exact/axis_plane.h"
 #include "exact/determinant.h"
 #include "exact/double_stage.h"
 #include "exact/expansion.h"
@@ -69,35 +70,28 @@ float round_ratio(double quotient, const Side& side_of) {
   return side < 0 || (side == 0 && below_is_even) ? below : next;
 }
 
-// The depth in a plane x_axis = c that the triangle lies in for certain, N being zero but for that component:
-// (c - o) / d there. False where that cannot be told in double.
-//
-// Such planes are common and their ties are too: seen along their axis, a whole plane has one t, which with
-// c and o floats is a midpoint of floats often. c - o is asked to be exact, and a midpoint of 25 bits times a
-// float is.
-bool axis_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& tri, int axis,
+// The depth in a plane across an axis, N being zero but for that component. False where that cannot be told
+// in double.
+bool axis_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& tri,
                 const DoubleStage& stage, float& t) {
-  if (tri.v0[axis] != tri.v1[axis] || tri.v0[axis] != tri.v2[axis]) return false;
+  const AxisPlane plane = axis_plane(origin, tri);
+  if (plane.axis < 0) return false;
   const double normal[3] = {stage.n.x, stage.n.y, stage.n.z};
-  if (!(std::fabs(normal[axis]) > stage.n_error)) return false;
-  const double plane = tri.v0[axis], from = origin[axis], along = direction[axis];
-  const double num = plane - from;
-  if (along == 0.0 || num == 0.0 || num + from != plane || plane - num != from) return false;
-  const double den_size = std::fabs(along), num_size = std::fabs(num);
+  const double along = direction[plane.axis];
+  if (!(std::fabs(normal[plane.axis]) > stage.n_error) || along == 0.0) return false;
+  const double den_size = std::fabs(along), num_size = std::fabs(plane.distance);
   const float magnitude = round_ratio(num_size / den_size, [&](double midpoint) {
-    const double at = midpoint * den_size;
+    const double at = midpoint * den_size;  // exact: 25 bits and 24
     return (num_size > at) - (num_size < at);
   });
-  t = (num < 0.0) == (along < 0.0) ? magnitude : -magnitude;
+  t = (plane.distance < 0.0) == (along < 0.0) ? magnitude : -magnitude;
   return true;
 }
 
 // RN32(num / den), false for a zero denominator.
 bool exact_depth(const glm::vec3& origin, const glm::vec3& direction, const Triangle& tri,
                  const DoubleStage& stage, float& t) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis_depth(origin, direction, tri, axis, stage, t)) return true;
-  }
+  if (axis_depth(origin, direction, tri, stage, t)) return true;
   const ExactNormal n = cross_about(tri.v1, tri.v2, tri.v0);
   Expansion<36> den;
   add_dot(den, n, direction, 1.0);

@@ -24,6 +24,48 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Decides between a triangle's depths, where they are certain, and those that pixels of a block know. Bounds
+// are taken anew where `asked`.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void DecideKnown(D d, TileState& state, size_t offset, std::uint32_t triangle, V depth,
+                            hn::Mask<D> certain, hn::Mask<D> asked) {
+  const hn::RebindToUnsigned<D> du;
+  const auto id = hn::Set(du, state.drawn.id[triangle]);
+  const auto known = hn::Load(d, state.t + offset);
+  const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(du, state.id + offset)));
+  const auto before = hn::Or(hn::Lt(depth, known), hn::And(hn::Eq(depth, known), lower_id));
+  const auto won = hn::And(hn::And(before, certain), asked);
+  const auto won_ids = hn::RebindMask(du, won);
+  hn::BlendedStore(depth, won, d, state.t + offset);
+  hn::BlendedStore(id, won_ids, du, state.id + offset);
+  hn::BlendedStore(hn::Set(du, triangle), won_ids, du, state.winner + offset);
+  auto low = hn::Zero(d), high = hn::Zero(d);
+  BoundsOf(d, hn::IfThenElse(won, depth, known), low, high);
+  hn::BlendedStore(low, asked, d, state.inverse_low + offset);
+  hn::BlendedStore(high, asked, d, state.inverse_high + offset);
+}
+
+// Decides pixels of a block that the triangle certainly covers, at depths that are not certain.
+template <class Triangles>
+HWY_NOINLINE inline void DecideTies(const TileView& view, const Triangles& triangles, TileState& state,
+                                    int block, std::uint32_t triangle, std::uint32_t pixels) {
+  const size_t first = static_cast<size_t>(block) * kBlockPixels;
+  const hn::CappedTag<float, 16> d;
+  const PlacedTriangle placed = Placed(triangles, state, triangle);
+  HWY_ALIGN float t[kBlockPixels] = {};
+  const std::uint32_t ties = BlockTies(view, state, block, placed.corners, pixels, t);
+  for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
+    const auto tied = MaskOfBits(d, ties >> lane);
+    DecideKnown(d, state, first + lane, triangle, hn::Load(d, t + lane), tied, tied);
+  }
+  const std::uint32_t open = pixels & ~ties;
+  for (std::uint32_t bits = open; bits != 0; bits &= bits - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    decide_pixel(view, state, static_cast<int>(first + i), placed);
+  }
+  if (open != 0) SetBounds(state, block, open);
+}
+
 // Decides pixels of a block that the triangle certainly covers, but at a depth too near to the winner's.
 template <class Triangles>
 inline void DecideDepths(const TileView& view, const Triangles& triangles, TileState& state, int block,
@@ -32,35 +74,14 @@ inline void DecideDepths(const TileView& view, const Triangles& triangles, TileS
   const size_t first = static_cast<size_t>(block) * kBlockPixels;
   const BlockRays rays(state, block);
   const hn::CappedTag<float, 16> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  const auto id = hn::Set(du, state.drawn.id[triangle]);
   std::uint32_t open = pixels;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
-    const size_t offset = first + lane;
     auto certain = hn::FirstN(d, 0);
     const auto depth = DepthsOf(d, rays, state.drawn, triangle, lane, certain);
-    const auto known = hn::Load(d, state.t + offset);
-    const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(du, state.id + offset)));
-    const auto before = hn::Or(hn::Lt(depth, known), hn::And(hn::Eq(depth, known), lower_id));
-    const auto asked = MaskOfBits(d, pixels >> lane);
-    const auto won = hn::And(hn::And(before, certain), asked);
-    const auto won_ids = hn::RebindMask(du, won);
-    hn::BlendedStore(depth, won, d, state.t + offset);
-    hn::BlendedStore(id, won_ids, du, state.id + offset);
-    hn::BlendedStore(hn::Set(du, triangle), won_ids, du, state.winner + offset);
-    auto low = hn::Zero(d), high = hn::Zero(d);
-    BoundsOf(d, hn::IfThenElse(won, depth, known), low, high);
-    hn::BlendedStore(low, asked, d, state.inverse_low + offset);
-    hn::BlendedStore(high, asked, d, state.inverse_high + offset);
+    DecideKnown(d, state, first + lane, triangle, depth, certain, MaskOfBits(d, pixels >> lane));
     open &= ~(MaskBits(d, certain) << lane);
   }
-  if (HWY_LIKELY(open == 0)) return;
-  const std::uint32_t decided = open;
-  for (; open != 0; open &= open - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
-    decide_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, triangle));
-  }
-  SetBounds(state, block, decided);
+  if (HWY_UNLIKELY(open != 0)) DecideTies(view, triangles, state, block, triangle, open);
 }
 
 // Decides pixels of a block that the triangle may or may not cover.

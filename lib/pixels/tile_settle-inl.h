@@ -15,6 +15,7 @@
 #include "base/mask_bits-inl.h"
 #include "exact/depth-inl.h"
 #include "hwy/highway.h"
+#include "pixels/axis_depths-inl.h"
 #include "pixels/pixel_direction-inl.h"
 #include "pixels/tile_bounds-inl.h"
 #include "pixels/tile_state.h"
@@ -171,6 +172,17 @@ HWY_INLINE VF DepthsOf(DF df, const BlockRays& rays, const DrawnTriangles& drawn
   return least;
 }
 
+// As BlockDepths() for pixels that one triangle certainly covers, at depths too near to a midpoint of floats
+// for that: those of planes across an axis.
+HWY_NOINLINE inline std::uint32_t BlockTies(const TileView& view, const TileState& state, int block,
+                                            const Triangle& triangle, std::uint32_t wanted, float* t) {
+  const AxisPlane plane = axis_plane(view.camera.eye, triangle);
+  if (plane.axis < 0) return 0;
+  // Made again: were the caller's looked at from here, it would have to keep them in memory.
+  const BlockRays rays(state, block);
+  return AxisDepths(plane.distance, rays.direction[plane.axis], wanted, t);
+}
+
 // Those of a block's pixels, of `asked`, that the first one's winner has won; which is `place`.
 HWY_INLINE std::uint32_t PixelsOfFirst(const std::uint32_t* winner, std::uint32_t asked,
                                        std::uint32_t& place) {
@@ -180,6 +192,17 @@ HWY_INLINE std::uint32_t PixelsOfFirst(const std::uint32_t* winner, std::uint32_
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d))
     same |= MaskBits(d, hn::Eq(hn::Load(d, winner + lane), hn::Set(d, place))) << lane;
   return same & asked;
+}
+
+// Puts the exact depths of a triangle into `t` for pixels that it certainly covers.
+template <class Triangles>
+HWY_INLINE void LearnPixels(const TileView& view, const Triangles& triangles, TileState& state, int block,
+                            std::uint32_t place, std::uint32_t pixels) {
+  const PlacedTriangle placed = Placed(triangles, state, place);
+  const int first = block * kBlockPixels;
+  pixels &= ~BlockTies(view, state, block, placed.corners, pixels, state.t + first);
+  for (; pixels != 0; pixels &= pixels - 1)
+    learn_pixel(view, state, first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(pixels)), placed);
 }
 
 // Computes the exact answer of those of a block's pixels whose bit is set. A depth that turns out not to be
@@ -222,9 +245,11 @@ inline void SettleBlock(const TileView& view, const Triangles& triangles, TileSt
   }
   std::uint32_t open = unknown & ~certain;
   state.settled[block] |= static_cast<std::uint16_t>(unknown);
-  for (; open != 0; open &= open - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
-    learn_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, winner[i]));
+  while (HWY_UNLIKELY(open != 0)) {
+    std::uint32_t place = 0;
+    const std::uint32_t same = PixelsOfFirst(winner, open, place);
+    LearnPixels(view, triangles, state, block, place, same);
+    open &= ~same;
   }
 }
 
@@ -252,12 +277,9 @@ HWY_INLINE void SettleWhole(const TileView& view, const Triangles& triangles, Ti
       hn::Store(hn::Set(d, kFloatInfinity), d, state.t + first + lane);
     return;
   }
-  std::uint32_t open =
-      0xffffu & ~BlockDepthsOf(BlockRays(state, block), state.drawn, winner, 0xffffu, state.t + first);
-  for (; HWY_UNLIKELY(open != 0); open &= open - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(open);
-    learn_pixel(view, state, static_cast<int>(first + i), Placed(triangles, state, winner));
-  }
+  const BlockRays rays(state, block);
+  const std::uint32_t open = 0xffffu & ~BlockDepthsOf(rays, state.drawn, winner, 0xffffu, state.t + first);
+  if (HWY_UNLIKELY(open != 0)) LearnPixels(view, triangles, state, block, winner, open);
 }
 
 // Puts the exact answer of every pixel of a row of blocks into `t` and `id`.
