@@ -23,6 +23,9 @@ constexpr std::size_t kSample = 1024;
 constexpr double kInView = 0.9;
 constexpr double kPerPixel = 0.1;
 
+// Below so many triangles to a pixel there are a few to a tile, and less than a tree to walk for it.
+constexpr double kFewPerPixel = 1.0 / 400.0;
+
 // Where more than so many triangles in view come to a pixel, a ray for each meets few of them.
 constexpr double kManyPerPixel = 2.5;
 
@@ -96,6 +99,8 @@ VisibleChoice choose_visible(MeshView mesh, const Structure* structure, const Ca
       return {VisibleMethod::Rays, "a ray for each pixel takes less than drawing so many triangles"};
     return {VisibleMethod::Raster, "the structure casts rays only, and drawing so few triangles takes less"};
   }
+  if (triangles < kFewPerPixel * pixels)
+    return {VisibleMethod::Raster, "so few triangles are listed sooner than a tree is walked"};
   if (share * triangles > kManyPerPixel * pixels)
     return {VisibleMethod::Rays,
             "several triangles in view come to each pixel, and its ray meets few of them"};

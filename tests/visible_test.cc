@@ -62,6 +62,7 @@ TEST_SUITE("visible") {
     } const cases[] = {{dense, false, 200, 150, VisibleMethod::Raster},  // small triangles, all in view
                        {dense, false, 64, 48, VisibleMethod::Rays},      // many for each pixel
                        {sparse, false, 120, 90, VisibleMethod::Tiles},
+                       {sparse, false, 700, 500, VisibleMethod::Raster},  // a few triangles to a tile
                        {dense, true, 40, 30, VisibleMethod::Rays},
                        {sparse, true, 120, 90, VisibleMethod::Raster}};
     for (const auto& test : cases) {
