@@ -97,7 +97,7 @@ inline void PartBlock(TileState& state, int block) {
   const hn::RebindToUnsigned<decltype(d)> du;
   const std::uint32_t winner = state.block_winner[block];
   const bool empty = winner == TileState::kEarlier;
-  const InversePlane plane = state.drawn.inverse[empty ? 0 : winner];
+  const InversePlane plane = empty ? InversePlane{} : state.drawn.inverse[winner];
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     const size_t offset = static_cast<size_t>(block * kBlockPixels) + lane;
     hn::Store(hn::Set(du, winner), du, state.winner + offset);

@@ -27,6 +27,12 @@ namespace plumb::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The pixel of the frame that a row of the tile begins with.
+HWY_INLINE size_t RowOf(const TileView& view, int y) {
+  return static_cast<size_t>(view.y + y) * static_cast<size_t>(view.camera.width) +
+         static_cast<size_t>(view.x);
+}
+
 // Calls copy(pixel of the frame, offset in the tile, pixels) for each run of up to four pixels that the tile
 // has in the frame, in its rows from the first to before the last.
 template <class Copy>
@@ -34,8 +40,7 @@ HWY_INLINE void ForEachRun(const TileView& view, int first_row, int last_row, co
   const int columns = std::min(kTilePx, view.camera.width - view.x);
   const int rows = std::min(last_row, view.camera.height - view.y);
   for (int y = first_row; y < rows; ++y) {
-    const size_t row = static_cast<size_t>(view.y + y) * static_cast<size_t>(view.camera.width) +
-                       static_cast<size_t>(view.x);
+    const size_t row = RowOf(view, y);
     for (int x = 0; x < columns; x += kBlockPx)
       copy(row + static_cast<size_t>(x), tile_offset(x, y), std::min(kBlockPx, columns - x));
   }
@@ -119,8 +124,7 @@ HWY_INLINE bool SeesNothing(const TileView& view, const Frame& frame) {
   const hn::RebindToUnsigned<decltype(d)> du;
   const size_t lanes = hn::Lanes(d);
   for (int y = 0; y < kTilePx; ++y) {
-    const size_t row = static_cast<size_t>(view.y + y) * static_cast<size_t>(view.camera.width) +
-                       static_cast<size_t>(view.x);
+    const size_t row = RowOf(view, y);
     auto some = hn::FirstN(d, 0);
     for (size_t x = 0; x < static_cast<size_t>(kTilePx); x += lanes) {
       const auto depth = hn::LoadU(d, frame.depth.data() + row + x);
@@ -169,12 +173,6 @@ inline void LoadTile(const TileView& view, const Frame& frame, TileState& state)
   state.changed = ~std::uint64_t{0};
   state.drawn.count = 0;
   UpdateLows(state);
-}
-
-// A row of a tile's pixels in the frame, and how many of them are in it.
-HWY_INLINE size_t RowOf(const TileView& view, int y) {
-  return static_cast<size_t>(view.y + y) * static_cast<size_t>(view.camera.width) +
-         static_cast<size_t>(view.x);
 }
 
 // Gives the frame what a tile sees that nothing was drawn into.
@@ -239,6 +237,7 @@ HWY_INLINE void FetchRow(const TileView& view, const Frame& frame, int row) {
 template <class Triangles>
 inline void StoreTile(const TileView& view, const Triangles& triangles, TileState& state, Frame& frame) {
   const bool whole = view.x + kTilePx <= view.camera.width;
+  // What the tile overwrites has not been read.
   FetchRow(view, frame, 0);
   FetchRow(view, frame, 1);
   for (int row = 0; row < kTileBlocks; ++row) {

@@ -67,20 +67,23 @@ TEST_CASE("render --stream writes the file that render writes, from one file or 
   for (const std::string camera :
        {"", "--up 0,0,1 --fov 20", "--eye 0,30,90", "--eye 0,30,90 --target 1,2,3", "--target 1,2,3"}) {
     CAPTURE(camera);
-    const std::string frame = " --size 90x60 --threads 1 --out " + out + " " + camera;
+    const std::string seen = (folder / "seen.csv").string();
+    const std::string frame = " --size 90x60 --threads 1 --out " + out + " --visible " + seen + " " + camera;
     REQUIRE(run_tool("render " + whole + " --method bvh8" + frame).status == 0);
-    const std::string expected = read_text(out);
+    const std::string expected = read_text(out), expected_seen = read_text(seen);
     for (const std::string& run :
          {"render --stream " + whole, "render " + whole + " --stream --memory 1 --method raster",
           "render --memory 1 " + files + " --stream"}) {
       CAPTURE(run);
       fs::remove(out);
+      fs::remove(seen);
       const ToolRun streamed = run_tool(run + frame);
       CAPTURE(streamed.err);
       CHECK(streamed.status == 0);
       CHECK(streamed.out.empty());
       CHECK(has(streamed.err, std::to_string(count) + " triangles"));
       CHECK(read_text(out) == expected);
+      CHECK(read_text(seen) == expected_seen);
     }
   }
 }
