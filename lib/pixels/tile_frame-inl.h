@@ -194,6 +194,10 @@ inline void ClearTile(const TileView& view, Frame& frame) {
   }
 }
 
+// How many pixels of a row are stored at once: a vector's, or where its size is not known the four that a
+// block has side by side.
+inline constexpr size_t kStoredAcross = HWY_HAVE_SCALABLE ? kBlockPx : 16;
+
 // A vector of pixels side by side, four of each block.
 template <class D>
 HWY_INLINE hn::Vec<D> LoadAcross(D d, const hn::TFromD<D>* blocks) {
@@ -211,7 +215,7 @@ HWY_INLINE hn::Vec<D> LoadAcross(D d, const hn::TFromD<D>* blocks) {
 // fast as the four pixels that a block has side by side.
 template <class T>
 HWY_INLINE void StoreBlocks(const T* blocks, const TileView& view, int row, T* frame) {
-  const hn::CappedTag<T, 16> d;
+  const hn::CappedTag<T, kStoredAcross> d;
   for (int y = 0; y < kBlockPx; ++y) {
     T* const to = frame + RowOf(view, row * kBlockPx + y);
     const T* const from = blocks + y * kBlockPx;

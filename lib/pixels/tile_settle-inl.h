@@ -52,25 +52,25 @@ struct BlockRays {
   }
 };
 
-// What gives the depths that a vector of pixels sees: N, T and PlaneBounds' of each one's triangle.
-template <class V>
-struct DepthPlanes {
-  V nx, ny, nz, t_num, a, b;
-};
+// What gives the depths that a vector of pixels sees is N, T and PlaneBounds' of each one's triangle.
 
 // All of one triangle.
-template <class D>
-HWY_INLINE DepthPlanes<hn::Vec<D>> PlanesOf(D d, const DrawnTriangles& drawn, std::uint32_t place) {
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PlanesOf(D d, const DrawnTriangles& drawn, std::uint32_t place, V& nx, V& ny, V& nz, V& t_num,
+                         V& a, V& b) {
   const double* const n = drawn.normal[place];
-  const double* const bounds = drawn.bounds[place];
-  return {hn::Set(d, n[0]), hn::Set(d, n[1]),      hn::Set(d, n[2]),
-          hn::Set(d, n[3]), hn::Set(d, bounds[0]), hn::Set(d, bounds[1])};
+  nx = hn::Set(d, n[0]);
+  ny = hn::Set(d, n[1]);
+  nz = hn::Set(d, n[2]);
+  t_num = hn::Set(d, n[3]);
+  a = hn::Set(d, drawn.bounds[place][0]);
+  b = hn::Set(d, drawn.bounds[place][1]);
 }
 
 // As many pairs of doubles as make a vector, of the places that are given.
 template <class D>
 HWY_INLINE hn::Vec<D> LoadPairs(D d, const double* pairs, size_t stride, const std::uint32_t* place) {
-#if HWY_TARGET != HWY_SCALAR
+#if HWY_TARGET != HWY_SCALAR && !HWY_HAVE_SCALABLE
   if constexpr (hn::MaxLanes(d) > 2) {
     const hn::Half<D> half;
     return hn::Combine(d, LoadPairs(half, pairs, stride, place + hn::Lanes(half) / 2),
@@ -80,13 +80,20 @@ HWY_INLINE hn::Vec<D> LoadPairs(D d, const double* pairs, size_t stride, const s
   return hn::LoadU(d, pairs + stride * place[0]);
 }
 
-// The two parts of a vector's worth of pairs. That is faster than gathering them.
+// The two parts of a vector's worth of pairs. Where a vector's size is known that is faster than gathering
+// them.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void SplitPairs(D d, const double* pairs, size_t stride, const std::uint32_t* place, V& first,
                            V& second) {
 #if HWY_TARGET == HWY_SCALAR
   first = hn::Set(d, pairs[stride * place[0]]);
   second = hn::Set(d, pairs[stride * place[0] + 1]);
+#elif HWY_HAVE_SCALABLE
+  const hn::RebindToUnsigned<D> du;
+  const hn::Rebind<std::uint32_t, D> d32;
+  const auto index = hn::Mul(hn::PromoteTo(du, hn::LoadU(d32, place)), hn::Set(du, stride));
+  first = hn::GatherIndex(d, pairs, hn::BitCast(hn::RebindToSigned<D>(), index));
+  second = hn::GatherIndex(d, pairs + 1, hn::BitCast(hn::RebindToSigned<D>(), index));
 #else
   const V low = LoadPairs(d, pairs, stride, place);
   const V high = LoadPairs(d, pairs, stride, place + hn::Lanes(d) / 2);
@@ -101,26 +108,27 @@ HWY_INLINE void SplitPairs(D d, const double* pairs, size_t stride, const std::u
 }
 
 // Each pixel's own triangle, whose place is given.
-template <class D>
-HWY_INLINE DepthPlanes<hn::Vec<D>> PlanesOfEach(D d, const DrawnTriangles& drawn,
-                                                const std::uint32_t* place) {
-  auto nx = hn::Zero(d), ny = nx, nz = nx, t_num = nx, a = nx, b = nx;
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PlanesOfEach(D d, const DrawnTriangles& drawn, const std::uint32_t* place, V& nx, V& ny,
+                             V& nz, V& t_num, V& a, V& b) {
   SplitPairs(d, drawn.normal[0], 4, place, nx, ny);
   SplitPairs(d, drawn.normal[0] + 2, 4, place, nz, t_num);
   SplitPairs(d, drawn.bounds[0], 2, place, a, b);
-  return {nx, ny, nz, t_num, a, b};
 }
 
-// RN32 of the ends of the intervals of t (exact/depth-inl.h) of a block's pixels from `lane` on.
-template <class D, class VF = hn::Vec<hn::Rebind<float, D>>>
-HWY_INLINE void DepthEnds(D d, const BlockRays& rays, const DepthPlanes<hn::Vec<D>>& of, size_t lane,
-                          VF& least, VF& greatest) {
+// RN32 of the ends of the intervals of t (exact/depth-inl.h) of a block's pixels from `lane` on, of whose
+// triangles `planes(d, lane, ...)` gives what the functions above do.
+template <class D, class Planes, class VF = hn::Vec<hn::Rebind<float, D>>>
+HWY_INLINE void DepthEnds(D d, const BlockRays& rays, const Planes& planes, size_t lane, VF& least,
+                          VF& greatest) {
+  auto nx = hn::Zero(d), ny = nx, nz = nx, t_num = nx, a = nx, b = nx;
+  planes(d, lane, nx, ny, nz, t_num, a, b);
   const auto ray = [&](int axis) HWY_ATTR { return hn::Load(d, rays.direction[axis] + lane); };
-  PlaneEnds(d, ray(0), ray(1), ray(2), of.nx, of.ny, of.nz, of.t_num, of.a, of.b, least, greatest);
+  PlaneEnds(d, ray(0), ray(1), ray(2), nx, ny, nz, t_num, a, b, least, greatest);
 }
 
-// The depths that a block's pixels see, `planes(d, lane)` being DepthPlanes. Where a bit of `wanted` is set
-// it is stored to `t`; returns those of them that are certain.
+// The depths that a block's pixels see. Where a bit of `wanted` is set it is stored to `t`; returns those of
+// them that are certain.
 template <class Planes>
 HWY_INLINE std::uint32_t BlockDepths(const BlockRays& rays, const Planes& planes, std::uint32_t wanted,
                                      float* t) {
@@ -129,25 +137,33 @@ HWY_INLINE std::uint32_t BlockDepths(const BlockRays& rays, const Planes& planes
   std::uint32_t bits = 0;
   for (size_t lane = 0; lane < kBlockPixels; lane += hn::Lanes(d)) {
     auto least = hn::Zero(df), greatest = hn::Zero(df);
-    DepthEnds(d, rays, planes(d, lane), lane, least, greatest);
+    DepthEnds(d, rays, planes, lane, least, greatest);
     hn::BlendedStore(least, MaskOfBits(df, wanted >> lane), df, t + lane);
     bits |= MaskBits(df, CertainDepths(df, least, greatest)) << lane;
   }
   return bits & wanted;
 }
 
-// Of one triangle.
+// One triangle for all pixels, for DepthEnds().
+HWY_INLINE auto OneTriangle(const DrawnTriangles& drawn, std::uint32_t place) {
+  return [&drawn, place](auto d, size_t, auto& nx, auto& ny, auto& nz, auto& t_num, auto& a, auto& b)
+             HWY_ATTR { PlanesOf(d, drawn, place, nx, ny, nz, t_num, a, b); };
+}
+
+// Depths of one triangle.
 HWY_INLINE std::uint32_t BlockDepthsOf(const BlockRays& rays, const DrawnTriangles& drawn,
                                        std::uint32_t place, std::uint32_t wanted, float* t) {
-  return BlockDepths(
-      rays, [&](auto d, size_t) HWY_ATTR { return PlanesOf(d, drawn, place); }, wanted, t);
+  return BlockDepths(rays, OneTriangle(drawn, place), wanted, t);
 }
 
 // Of each pixel's own triangle, whose places are given.
 HWY_INLINE std::uint32_t BlockDepthsOfEach(const BlockRays& rays, const DrawnTriangles& drawn,
                                            const std::uint32_t* place, std::uint32_t wanted, float* t) {
   return BlockDepths(
-      rays, [&](auto d, size_t lane) HWY_ATTR { return PlanesOfEach(d, drawn, place + lane); }, wanted, t);
+      rays,
+      [&](auto d, size_t lane, auto& nx, auto& ny, auto& nz, auto& t_num, auto& a, auto& b)
+          HWY_ATTR { PlanesOfEach(d, drawn, place + lane, nx, ny, nz, t_num, a, b); },
+      wanted, t);
 }
 
 // One triangle's depths of as many of a block's pixels as a whole vector of floats has, and where they are
@@ -155,14 +171,13 @@ HWY_INLINE std::uint32_t BlockDepthsOfEach(const BlockRays& rays, const DrawnTri
 template <class DF, class VF = hn::Vec<DF>>
 HWY_INLINE VF DepthsOf(DF df, const BlockRays& rays, const DrawnTriangles& drawn, std::uint32_t place,
                        size_t lane, hn::Mask<DF>& certain) {
+  const auto planes = OneTriangle(drawn, place);
 #if HWY_TARGET == HWY_SCALAR
-  const hn::Rebind<double, DF> d;
   auto least = hn::Zero(df), greatest = hn::Zero(df);
-  DepthEnds(d, rays, PlanesOf(d, drawn, place), lane, least, greatest);
+  DepthEnds(hn::Rebind<double, DF>(), rays, planes, lane, least, greatest);
 #else
   const hn::Half<DF> half;
   const hn::Rebind<double, decltype(half)> d;
-  const auto planes = PlanesOf(d, drawn, place);
   auto least0 = hn::Zero(half), greatest0 = least0, least1 = least0, greatest1 = least0;
   DepthEnds(d, rays, planes, lane, least0, greatest0);
   DepthEnds(d, rays, planes, lane + hn::Lanes(half), least1, greatest1);
