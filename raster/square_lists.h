@@ -15,7 +15,11 @@ struct SquareGrid {
 
   SquareGrid(int width, int height, int side_px);
   /// The number of the square that holds the pixel.
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y / side_px * columns + x / side_px); }
+  std::size_t at(int x, int y) const {
+    const int column = x / side_px, row = y / side_px;
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 

@@ -104,7 +104,8 @@ bool ClaimsAt(const Projection& view, MeshView mesh, int x, int y, float hidden_
   const hn::CappedTag<float, 16> d;
   HWY_ALIGN float hidden[kTileBlocks * kTileBlocks], low[16], high[16];
   std::fill(std::begin(hidden), std::end(hidden), hidden_below);
-  const auto block = static_cast<size_t>((y - tile_y) / kBlockPx * kTileBlocks + (x - tile_x) / kBlockPx);
+  const int block_row = (y - tile_y) / kBlockPx, block_column = (x - tile_x) / kBlockPx;
+  const size_t block = static_cast<size_t>(block_row) * kTileBlocks + static_cast<size_t>(block_column);
   const size_t first = block / hn::Lanes(d) * hn::Lanes(d);
   auto open = hn::FirstN(d, 0), full = open;
   auto least = hn::Zero(d), greatest = least;
