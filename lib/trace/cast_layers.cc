@@ -35,8 +35,8 @@ void cast_layers(const Structure& structure, const Camera& camera, LayeredFrame&
                  const CastOptions& options) {
   detail::check_frame(frame, camera);
   const Structure cast_through = options.simd == Simd::Auto ? structure : structure.with_simd(options.simd);
-  const auto columns = static_cast<std::size_t>((camera.width - 1) / kSide + 1);
-  const auto rows = static_cast<std::size_t>((camera.height - 1) / kSide + 1);
+  const auto columns = static_cast<std::size_t>((camera.width - 1) / kSide) + 1;
+  const auto rows = static_cast<std::size_t>((camera.height - 1) / kSide) + 1;
   detail::Progress progress(options.progress, columns * rows);
   detail::parallel_for(columns * rows, options.threads, [&](std::size_t square) {
     if (progress.cancelled()) return;
